@@ -1,0 +1,3 @@
+"""grammarbt: learn behavior trees from a grammar."""
+
+__version__ = "0.1.0"

@@ -1,0 +1,145 @@
+"""The behavior tree: a frozen value made of control nodes, decorators and leaves.
+
+The words are the field's (Colledanchise & Ögren, *Behavior Trees in Robotics and AI*, 2018): fallback, sequence and
+parallel are control nodes, not is the decorator, actions and conditions are leaves.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
+
+from attrs import Attribute, field, frozen
+
+from grammarbt.errors import NotationError
+
+MAX_DEPTH = 256
+"""Levels of the deepest tree; BehaviorTree.CPP refuses more, and no reader gets lost in fewer."""
+
+_FORBIDDEN = re.compile(r"[\[\](){}\x00-\x1f\x7f-\x9f\u2028\u2029]")
+
+Arguments: TypeAlias = tuple[tuple[str, str], ...]
+
+
+def _check_name(_: object, attribute: Attribute[str], value: str) -> None:
+    if not value or value != value.strip() or _FORBIDDEN.search(value):
+        raise NotationError(
+            f"a leaf cannot have the {attribute.name} {value!r}",
+            "names hold anything but brackets, parentheses, braces and control characters, with no space at the ends",
+        )
+
+
+def _check_arguments(_: object, __: Attribute[Arguments], value: Arguments) -> None:
+    for key, text in value:
+        for part in (key, text):
+            if not part or part != part.strip() or _FORBIDDEN.search(part) or set(part) & set("=,"):
+                raise NotationError(f"{part!r} cannot stand in a leaf's arguments", "write them as name(key=value)")
+
+
+@frozen
+class Action:
+    """A leaf that acts; a tick answers success, failure or running."""
+
+    name: str = field(validator=_check_name)
+    arguments: Arguments = field(default=(), validator=_check_arguments)
+
+
+@frozen
+class Condition:
+    """A leaf that asks; a tick answers success or failure."""
+
+    name: str = field(validator=_check_name)
+    arguments: Arguments = field(default=(), validator=_check_arguments)
+
+
+def _some(_: object, attribute: Attribute[tuple[Node, ...]], value: tuple[Node, ...]) -> None:
+    if not value:
+        raise NotationError(f"a control node needs {attribute.name}", "give it at least one child")
+
+
+@frozen
+class Fallback:
+    """Tries its children left to right until one does not fail."""
+
+    children: tuple[Node, ...] = field(validator=_some)
+
+
+@frozen
+class Sequence:
+    """Runs its children left to right until one does not succeed."""
+
+    children: tuple[Node, ...] = field(validator=_some)
+
+
+def _reachable(node: Parallel, _: Attribute[int], value: int) -> None:
+    if not 1 <= value <= len(node.children):
+        raise NotationError(
+            f"a parallel node of {len(node.children)} children cannot wait for {value} successes",
+            "choose a number from 1 to the number of children",
+        )
+
+
+@frozen
+class Parallel:
+    """Ticks all its children; succeeds at `successes` successes, fails when so many cannot be reached any more."""
+
+    children: tuple[Node, ...] = field(validator=_some)
+    successes: int = field(validator=_reachable)
+
+
+@frozen
+class Not:
+    """Swaps its child's success and failure."""
+
+    child: Node
+
+
+Leaf: TypeAlias = Action | Condition
+Control: TypeAlias = Fallback | Sequence | Parallel
+Node: TypeAlias = Control | Not | Leaf
+BehaviorTree: TypeAlias = Node
+"""A tree is its root node."""
+
+
+def children(node: Node) -> tuple[Node, ...]:
+    """The node's children, left to right; empty for a leaf."""
+    if isinstance(node, Not):
+        return (node.child,)
+    return () if isinstance(node, Action | Condition) else node.children
+
+
+def walk(tree: BehaviorTree) -> Iterator[Node]:
+    """All nodes, each before its children, left to right."""
+    stack: list[Node] = [tree]
+    while stack:
+        node = stack.pop()
+        yield node
+        stack.extend(reversed(children(node)))
+
+
+def leaves(tree: BehaviorTree) -> tuple[Leaf, ...]:
+    """All leaves, left to right; a leaf's place here is its *occurrence*."""
+    return tuple(node for node in walk(tree) if isinstance(node, Action | Condition))
+
+
+def depth(tree: BehaviorTree) -> int:
+    """Nodes on the longest way from the root to a leaf; a single leaf has depth 1."""
+    deepest, stack = 0, [(tree, 1)]
+    while stack:
+        node, level = stack.pop()
+        deepest = max(deepest, level)
+        stack.extend((child, level + 1) for child in children(node))
+    return deepest
+
+
+def rebuild(tree: BehaviorTree, change: Callable[[Node], Node]) -> BehaviorTree:
+    """The tree with `change` applied to every node, children first."""
+    if isinstance(tree, Not):
+        return change(Not(rebuild(tree.child, change)))
+    if isinstance(tree, Action | Condition):
+        return change(tree)
+    parts = tuple(rebuild(child, change) for child in tree.children)
+    if isinstance(tree, Parallel):
+        return change(Parallel(parts, tree.successes))
+    return change(type(tree)(parts))

@@ -1,0 +1,43 @@
+"""Domains: the vocabulary of a robot and the simulator that scores its trees."""
+
+from grammarbt.domain.base import (
+    FIRST_VALIDATION_SCENARIO,
+    MAX_SEED,
+    Domain,
+    NoParameters,
+    Outcome,
+    Reference,
+    Returns,
+    Scenarios,
+    scenario_numbers,
+)
+from grammarbt.domain.tick import TickDomain
+from grammarbt.domain.vocabulary import (
+    ActionType,
+    ConditionType,
+    Group,
+    LeafType,
+    Vocabulary,
+    actions_of,
+    conditions_of,
+)
+
+__all__ = [
+    "FIRST_VALIDATION_SCENARIO",
+    "MAX_SEED",
+    "ActionType",
+    "ConditionType",
+    "Domain",
+    "Group",
+    "LeafType",
+    "NoParameters",
+    "Outcome",
+    "Reference",
+    "Returns",
+    "Scenarios",
+    "TickDomain",
+    "Vocabulary",
+    "actions_of",
+    "conditions_of",
+    "scenario_numbers",
+]

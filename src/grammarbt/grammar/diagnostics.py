@@ -1,0 +1,111 @@
+"""What is wrong with a grammar, where, and what to do: the values, and how they look on a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Literal
+
+from attrs import frozen
+
+from grammarbt.errors import GrammarError
+
+
+@frozen
+class Source:
+    """A grammar file's name and text."""
+
+    name: str
+    text: str
+
+
+@frozen
+class Span:
+    """A stretch of a source, by character offsets; `end` is exclusive."""
+
+    source: Source
+    start: int
+    end: int
+
+    @property
+    def line(self) -> int:
+        """The line it starts on, from 1."""
+        return self.source.text.count("\n", 0, self.start) + 1
+
+    @property
+    def column(self) -> int:
+        """The column it starts at, from 1."""
+        return self.start - self.source.text.rfind("\n", 0, self.start)
+
+    @property
+    def line_text(self) -> str:
+        """The whole line it starts on."""
+        first = self.source.text.rfind("\n", 0, self.start) + 1
+        return self.source.text[first:].partition("\n")[0].rstrip("\r")
+
+    @property
+    def text(self) -> str:
+        """The stretch itself."""
+        return self.source.text[self.start : self.end]
+
+
+@frozen
+class Diagnostic:
+    """One finding.
+
+    Attributes:
+        code: stable, `G` and three digits; each has a page in the docs.
+        message: what is wrong.
+        span: where, or None when it concerns the whole grammar.
+        help: what to do.
+        notes: why, a line each.
+    """
+
+    code: str
+    message: str
+    span: Span | None = None
+    help: str = ""
+    notes: tuple[str, ...] = ()
+    severity: Literal["error", "warning"] = "error"
+
+    @property
+    def place(self) -> str:
+        """`file:line:column`, or the empty string."""
+        return f"{self.span.source.name}:{self.span.line}:{self.span.column}" if self.span else ""
+
+    def render(self) -> str:
+        """Several lines: the place, the source line, a caret under the stretch, the reason and the way out."""
+        head = f"{self.place or 'grammar'}: {self.severity}[{self.code}]: {self.message}"
+        lines = [head, *self._excerpt()]
+        margin = " " * (len(str(self.span.line)) if self.span else 1)
+        lines += [f"{margin}  = {note}" for note in self.notes]
+        if self.help:
+            lines.append(f"{margin}  = help: {self.help}")
+        return "\n".join(lines)
+
+    def _excerpt(self) -> list[str]:
+        if self.span is None:
+            return []
+        number, source = str(self.span.line), self.span.line_text
+        margin = " " * len(number)
+        width = max(1, min(self.span.end - self.span.start, len(source) - self.span.column + 1))
+        lead = "".join("\t" if char == "\t" else " " for char in source[: self.span.column - 1])
+        return [f"{margin} |", f"{number} | {source}", f"{margin} | {lead}{'^' * width}"]
+
+
+class GrammarFileError(GrammarError):
+    """A grammar cannot be used; `diagnostics` holds every finding, errors first."""
+
+    def __init__(self, diagnostics: Iterable[Diagnostic]) -> None:
+        self.diagnostics = tuple(sorted(diagnostics, key=_order))
+        first = self.diagnostics[0]
+        where = f"{first.place}: " if first.place else ""
+        super().__init__(f"{where}error[{first.code}]: {first.message}", first.help or None)
+
+    def render(self) -> str:
+        """All findings, one after the other."""
+        return "\n\n".join(diagnostic.render() for diagnostic in self.diagnostics)
+
+
+def _order(diagnostic: Diagnostic) -> tuple[bool, str, int, str]:
+    span = diagnostic.span
+    return (diagnostic.severity != "error", span.source.name if span else "", span.start if span else 0, diagnostic.code)

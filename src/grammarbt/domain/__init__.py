@@ -1,5 +1,14 @@
 """Domains: the vocabulary of a robot and the simulator that scores its trees."""
 
+from grammarbt.bt.vocabulary import (
+    ActionType,
+    ConditionType,
+    Group,
+    LeafType,
+    Vocabulary,
+    actions_of,
+    conditions_of,
+)
 from grammarbt.domain.base import (
     FIRST_VALIDATION_SCENARIO,
     MAX_SEED,
@@ -12,15 +21,6 @@ from grammarbt.domain.base import (
     scenario_numbers,
 )
 from grammarbt.domain.tick import TickDomain
-from grammarbt.domain.vocabulary import (
-    ActionType,
-    ConditionType,
-    Group,
-    LeafType,
-    Vocabulary,
-    actions_of,
-    conditions_of,
-)
 
 __all__ = [
     "FIRST_VALIDATION_SCENARIO",

@@ -16,7 +16,7 @@ from grammarbt.errors import DomainError
 
 if TYPE_CHECKING:
     from grammarbt.bt import Policy
-    from grammarbt.domain.vocabulary import Vocabulary
+    from grammarbt.bt.vocabulary import Vocabulary
 
 Scenarios: TypeAlias = NDArray[np.int64]
 Returns: TypeAlias = NDArray[np.float64]

@@ -11,7 +11,7 @@ from grammarbt.bt import Action, FlatTree, Leaf, Policy, Status, flatten, tick
 from grammarbt.domain.base import Outcome, Reference, Scenarios
 
 if TYPE_CHECKING:
-    from grammarbt.domain.vocabulary import Vocabulary
+    from grammarbt.bt.vocabulary import Vocabulary
 
 
 class TickDomain(ABC):

@@ -108,4 +108,9 @@ class GrammarFileError(GrammarError):
 
 def _order(diagnostic: Diagnostic) -> tuple[bool, str, int, str]:
     span = diagnostic.span
-    return (diagnostic.severity != "error", span.source.name if span else "", span.start if span else 0, diagnostic.code)
+    return (
+        diagnostic.severity != "error",
+        span.source.name if span else "",
+        span.start if span else 0,
+        diagnostic.code,
+    )

@@ -8,6 +8,7 @@ from importlib.resources import files
 from typing import Any
 
 from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput, UnexpectedToken, v_args
+from lark.exceptions import VisitError
 
 from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError, Source, Span
 from grammarbt.grammar.syntax import (
@@ -48,7 +49,10 @@ def read(source: Source) -> tuple[Item, ...]:
         tree = _parser().parse(source.text)
     except UnexpectedInput as error:
         raise GrammarFileError([_syntax_error(source, error)]) from None
-    return tuple(_Builder(source).transform(tree))
+    try:
+        return tuple(_Builder(source).transform(tree))
+    except VisitError as error:
+        raise error.orig_exc from None
 
 
 @cache
@@ -71,8 +75,9 @@ def _check_size(source: Source) -> None:
 
 
 def _syntax_error(source: Source, error: UnexpectedInput) -> Diagnostic:
-    at = error.pos_in_stream if error.pos_in_stream is not None and error.pos_in_stream >= 0 else len(source.text)
-    at = min(at, len(source.text))
+    at: Any = error.pos_in_stream
+    if at is None or not 0 <= at <= len(source.text):  # lark gives -1 where the text ends too early
+        at = len(source.text)
     if isinstance(error, UnexpectedToken):
         length = len(error.token) if error.token.type != "$END" else 1
         expected = _expected(error.accepts or error.expected)
@@ -93,7 +98,10 @@ def _expected(names: Any) -> str:  # noqa: ANN401  lark types its token sets loo
 def _known_mistake(source: Source, at: int) -> tuple[str, str] | None:
     rest, line = source.text[at : at + 40], source.text[:at].rpartition("\n")[2]
     if rest.startswith("/"):
-        return "regular expressions have no place here", "a grammar generates trees: write leaves as strings or terminals"
+        return (
+            "regular expressions have no place here",
+            "a grammar generates trees: write leaves as strings or terminals",
+        )
     if rest.startswith('"'):
         return "this string is never closed", 'add " before the end of the line'
     if rest.startswith("%"):

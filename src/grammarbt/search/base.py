@@ -6,16 +6,14 @@ The run owns the loop, so pools, caches, budgets, journals and resume stay out o
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Literal, Protocol, TypeAlias
+from typing import Literal, Protocol, TypeAlias
 
 import numpy as np
 from attrs import frozen
 
 from grammarbt.bt import BehaviorTree
+from grammarbt.bt.vocabulary import Vocabulary
 from grammarbt.grammar import BoundGrammar, Derivation
-
-if TYPE_CHECKING:
-    from grammarbt.domain import Vocabulary
 
 EvaluationStatus: TypeAlias = Literal["ok", "failed", "timeout", "invalid"]
 

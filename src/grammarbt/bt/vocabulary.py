@@ -7,7 +7,8 @@ from itertools import product
 
 from attrs import field, frozen
 
-from grammarbt.bt import Action, Condition, Leaf, Status
+from grammarbt.bt.model import Action, Condition, Leaf
+from grammarbt.bt.status import Status
 from grammarbt.errors import DomainError
 
 ANY_RESULT = frozenset({Status.SUCCESS, Status.FAILURE, Status.RUNNING})

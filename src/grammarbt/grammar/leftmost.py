@@ -1,0 +1,127 @@
+"""Leftmost derivations as a walk over states, each computed once.
+
+A state is a sentential form without the finished part to its left; a move is a production of its first nonterminal,
+and says which terminals become final by it. Everything that counts, samples or lists a language walks these states.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import accumulate
+from typing import TypeAlias
+
+import numpy as np
+from attrs import frozen
+
+from grammarbt.grammar.form import Forms, SententialForm
+from grammarbt.grammar.table import CLOSE, Derivation, ProductionTable
+
+Word: TypeAlias = tuple[int, ...]
+"""Numbers of terminals."""
+
+MAX_STATES = 400_000
+
+
+@frozen(eq=False)
+class Move:
+    """One production at a state's first nonterminal: the terminals it finishes and the state after it."""
+
+    production: int
+    emits: Word
+    after: SententialForm
+
+
+class Leftmost:
+    """The states of a grammar's leftmost derivations, kept as they are met."""
+
+    def __init__(self, grammar: ProductionTable, forms: Forms) -> None:
+        self.grammar = grammar
+        self.forms = forms
+        self._moves: dict[SententialForm, tuple[Move, ...]] = {}
+        self._shares: dict[SententialForm, list[float]] = {}
+
+    def moves(self, state: SententialForm) -> tuple[Move, ...]:
+        """What may be done at the state's first nonterminal; empty only when nothing is left to derive."""
+        known = self._moves.get(state)
+        if known is None:
+            if len(self._moves) >= MAX_STATES:
+                self._moves.clear()
+                self._shares.clear()
+            known = self._moves[state] = tuple(self._computed(state))
+        return known
+
+    def _computed(self, state: SententialForm) -> Iterator[Move]:
+        at = next((at for at, symbol in enumerate(state.symbols) if symbol >= self.grammar.start_symbol), None)
+        if at is None:
+            return
+        for production in self.grammar.by_lhs.get(state.symbols[at], ()):
+            form = self.forms.applied(state, production, at)
+            if form is not None and self.forms.can_finish(form):
+                emits, after = self.split(form)
+                yield Move(production.number, emits, after)
+
+    def split(self, form: SententialForm) -> tuple[Word, SententialForm]:
+        """The terminals before the first nonterminal, and the rest; scopes that are still open stay open."""
+        kept: list[int] = []
+        used: list[tuple[int, ...]] = []
+        emits: list[int] = []
+        opened = 0
+        for at, symbol in enumerate(form.symbols):
+            if symbol >= self.grammar.start_symbol:
+                rest = SententialForm((*kept, *form.symbols[at:]), (*used, *form.used[opened:]))
+                return tuple(emits), rest
+            if symbol == CLOSE:
+                kept.pop()
+                used.pop()
+            elif symbol < 0:
+                kept.append(symbol)
+                used.append(form.used[opened])
+                opened += 1
+            else:
+                emits.append(symbol)
+        return tuple(emits), SententialForm(())
+
+    def random_walk(self, state: SententialForm, rng: np.random.Generator) -> tuple[Derivation, Word]:
+        """Derive a word from a state, choosing among legal moves by weight."""
+        derivation: list[int] = []
+        word: list[int] = []
+        while moves := self.moves(state):
+            move = moves[0] if len(moves) == 1 else moves[self._choose(state, moves, rng)]
+            derivation.append(move.production)
+            word.extend(move.emits)
+            state = move.after
+        return tuple(derivation), tuple(word)
+
+    def _choose(self, state: SententialForm, moves: tuple[Move, ...], rng: np.random.Generator) -> int:
+        shares = self._shares.get(state)
+        if shares is None:
+            shares = list(accumulate(self.grammar.productions[move.production].weight for move in moves))
+            self._shares[state] = shares
+        draw = rng.random() * shares[-1]
+        return next((at for at, share in enumerate(shares) if draw < share), len(shares) - 1)
+
+    def follow(self, state: SententialForm, derivation: Derivation) -> tuple[Word, SententialForm]:
+        """What a derivation, or the first part of one, makes of a state.
+
+        Raises:
+            KeyError: it takes a move that is not there; the argument is the place in the derivation.
+        """
+        word: list[int] = []
+        for at, number in enumerate(derivation):
+            move = next((move for move in self.moves(state) if move.production == number), None)
+            if move is None:
+                raise KeyError(at)
+            word.extend(move.emits)
+            state = move.after
+        return tuple(word), state
+
+    def words(self, state: SententialForm, most: int) -> Iterator[tuple[Derivation, Word]]:
+        """Every derivation with its word, depth-first, stopping after `most`."""
+        stack: list[tuple[SententialForm, Derivation, Word]] = [(state, (), ())]
+        while stack and most > 0:
+            state, derivation, word = stack.pop()
+            moves = self.moves(state)
+            if not moves:
+                most -= 1
+                yield derivation, word
+            stack.extend((move.after, (*derivation, move.production), (*word, *move.emits)) for move in reversed(moves))

@@ -19,6 +19,7 @@ from grammarbt.grammar.table import CLOSE, Production, ProductionTable
 Used: TypeAlias = tuple[tuple[int, ...], ...]
 
 MAX_REMEMBERED = 500_000
+_NOTHING = -1_000_000_000  # stands for the first symbol of an empty right-hand side
 
 
 @frozen
@@ -97,11 +98,21 @@ class Forms:
 
     def parents(self, form: SententialForm) -> Iterator[tuple[SententialForm, int]]:
         """Every form that becomes this one by one production, by inverse productions, left to right."""
-        for position in range(len(form.symbols)):
-            for production in self.grammar.productions:
+        for position, symbol in enumerate((*form.symbols, None)):
+            for production in (*self._by_first.get(symbol, ()), *self._by_first.get(_NOTHING, ())):
                 parent = self._undone(form, production, position)
                 if parent is not None and self.applied(parent, production, position) == form:
                     yield parent, production.number
+
+    @cached_property
+    def _by_first(self) -> dict[int | None, list[Production]]:
+        """Productions by the first symbol they put into a form."""
+        found: dict[int | None, list[Production]] = {}
+        for production in self.grammar.productions:
+            opens = self.grammar.opens_of(production.lhs)
+            first = self.grammar.opening(production.lhs) if opens else (*production.rhs, _NOTHING)[0]
+            found.setdefault(first, []).append(production)
+        return found
 
     def _undone(self, form: SententialForm, production: Production, position: int) -> SententialForm | None:
         rhs = production.rhs

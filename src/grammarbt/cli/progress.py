@@ -1,0 +1,124 @@
+"""What a run shows while it goes on: a live display on a terminal, a line now and then elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time
+from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console, Group
+from rich.live import Live
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.text import Text
+
+from grammarbt.plugins.events import TrialFinished
+from grammarbt.run.watch import Watcher
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from grammarbt.plugins import PluginHost
+    from grammarbt.run.watch import RunEvent
+
+_EVERY = 5.0
+"""Seconds between two plain lines."""
+
+
+class Display(Watcher):
+    """Passes events on to the plugins, and keeps the figures that every display shows."""
+
+    def __init__(self, host: PluginHost) -> None:
+        self._host = host
+        self.name, self.total, self.done = "", 0, 0
+        self.best = ""
+        self.path = Path()
+        self.started = time.monotonic()
+
+    def shown(self) -> AbstractContextManager[object]:
+        """In force while the run goes on."""
+        return nullcontext()
+
+    def folder(self, path: Path) -> None:
+        """Remember where the run is."""
+        self.path = path
+
+    def notify(self, event: RunEvent) -> None:
+        """Remember the best tree; tell the plugins."""
+        if isinstance(event, TrialFinished) and event.best_tree:
+            self.best = f"best {event.best:.5g}  {event.best_tree}"
+        self._host.notify(event)
+
+    def phase(self, name: str, episodes: int) -> None:
+        """Begin to count anew."""
+        self.name, self.total, self.done = name, episodes, 0
+        self.started = time.monotonic()
+
+    def advance(self, episodes: int) -> None:
+        """Count."""
+        self.done += episodes
+
+    @property
+    def rate(self) -> float:
+        """Episodes per second in this phase."""
+        return self.done / max(time.monotonic() - self.started, 1e-6)
+
+
+class Lines(Display):
+    """One plain line on standard error every few seconds."""
+
+    def __init__(self, host: PluginHost, say: Callable[[str], None]) -> None:
+        super().__init__(host)
+        self._say = say
+        self._next = time.monotonic() + _EVERY
+
+    def advance(self, episodes: int) -> None:
+        """Count, and say so when it is time."""
+        super().advance(episodes)
+        if time.monotonic() >= self._next:
+            self._next = time.monotonic() + _EVERY
+            self._say(self._line())
+
+    def _line(self) -> str:
+        of = f" of {self.total:,}" if self.total else ""
+        left = max(self.total - self.done, 0) / max(self.rate, 1e-6)
+        eta = f", {left:.0f} s left" if self.total else ""
+        return f"{self.name}: {self.done:,}{of} episodes, {self.rate:,.0f}/s{eta}; {self.best}".rstrip("; ")
+
+
+class LiveDisplay(Display):
+    """A bar with the time left and episodes per second, and the best tree under it."""
+
+    def __init__(self, host: PluginHost) -> None:
+        super().__init__(host)
+        self._bar = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TaskProgressColumn(),
+            TextColumn("{task.fields[rate]} episodes/s, left"),
+            TimeRemainingColumn(),
+        )
+        self._task = self._bar.add_task("", rate="")
+
+    def shown(self) -> AbstractContextManager[object]:
+        """The live display."""
+        return Live(get_renderable=self._render, console=Console(stderr=True), transient=True, refresh_per_second=4)
+
+    def phase(self, name: str, episodes: int) -> None:
+        """Begin a new bar."""
+        super().phase(name, episodes)
+        self._bar.reset(self._task, description=name, total=episodes or None, rate="")
+
+    def _render(self) -> Group:
+        self._bar.update(self._task, completed=self.done, rate=f"{self.rate:,.0f}")
+        return Group(self._bar, Text(self.best, overflow="ellipsis"))
+
+
+def make_display(host: PluginHost, *, quiet: bool) -> Display:
+    """The display that suits where standard error goes."""
+    if quiet:
+        return Display(host)
+    if sys.stderr.isatty():
+        return LiveDisplay(host)
+    return Lines(host, lambda line: print(line, file=sys.stderr, flush=True))

@@ -1,0 +1,82 @@
+"""`grammarbt run`: learn a tree."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import attrs
+import click
+
+from grammarbt.cli.app import open_registry
+from grammarbt.cli.output import emit_json, table
+from grammarbt.cli.progress import make_display
+from grammarbt.run.execute import Result, execute
+from grammarbt.run.setup import prepare
+from grammarbt.run.spec import RunSpec, read_spec, settings_of
+
+
+@click.command("run")
+@click.argument("spec", required=False, metavar="[SPEC.toml]")
+@click.option("--grammar", metavar="NAME|FILE", help="The language to search; the domain's own unless given.")
+@click.option("--domain", metavar="NAME|FILE.py:NAME", help="The simulator; marine unless given.")
+@click.option("--searcher", metavar="NAME", help="The search method; dagmcts unless given.")
+@click.option("--set", "settings", multiple=True, metavar="PART.KEY=VALUE", help="A parameter of a part; repeatable.")
+@click.option("--budget", type=int, metavar="EPISODES", help="Episodes to simulate; 5000 unless given.")
+@click.option("--seed", type=int, metavar="N", help="Fixes everything random; 0 unless given.")
+@click.option("--batch", type=int, metavar="N", help="Trees asked for at a time; 1 unless given.")
+@click.option("--workers", type=int, metavar="N", help="Simulations side by side; 1 unless given.")
+@click.option("--executor", metavar="NAME", help="What runs the workers; serial unless given.")
+@click.option("--out", metavar="DIR", help="The run folder, new or empty; a fresh one under runs/ unless given.")
+@click.option("--start", metavar="TREE", help="A tree to begin from: notation, a file or a run folder.")
+@click.option("--trials", type=int, metavar="N", help="Stop the search after so many trials.")
+@click.option("--seconds", type=float, metavar="N", help="Stop the search after so much time.")
+@click.option("--target", type=float, metavar="VALUE", help="Stop the search when the best mean return reaches it.")
+@click.option(
+    "--validation", type=int, metavar="EPISODES", help="Fresh worlds to score the tree on; 2000 unless given."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@click.option("--quiet", is_flag=True, help="Show no progress.")
+def command(spec: str | None, settings: tuple[str, ...], as_json: bool, quiet: bool, **options: object) -> None:
+    """Learn a behavior tree.
+
+    \b
+    SPEC.toml holds the same options; those on the command line win:
+        domain = "marine"
+        budget = 5000
+        [set.searcher]
+        preset = "paper"
+    """  # noqa: D301 - \b is click's mark for lines to leave alone
+    asked = (RunSpec() if spec is None else read_spec(Path(spec))).overridden(options, settings_of(settings))
+    registry = open_registry()
+    display = make_display(registry.host, quiet=quiet)
+    setup = prepare(asked, registry)
+    try:
+        with display.shown():
+            result = execute(setup, display)
+    except KeyboardInterrupt:
+        print(f"interrupted; what was found is in {display.path}", file=sys.stderr)
+        raise
+    if as_json:
+        emit_json(attrs.asdict(result))
+    else:
+        print(_summary(result, asked.validation))
+
+
+def _summary(result: Result, worlds: int) -> str:
+    rows = [
+        ("tree", result.tree),
+        ("value", f"{result.value:.5g} ± {result.stderr:.2g} on {worlds:,} fresh worlds"),
+    ]
+    if result.reference:
+        other = result.reference
+        rows.append(("reference", f"{other.value:.5g} ± {other.stderr:.2g} ({other.name}, same worlds)"))
+    if result.ratio is not None:
+        rows.append(("ratio", f"{result.ratio:.3f}"))
+    if result.complete is not None:
+        rows.append(("complete", "every group that matters works" if result.complete else "some group does not work"))
+    rows += [
+        ("search", f"{result.episodes:,} episodes, {result.trials:,} trials, {result.seconds:.1f} s"),
+        ("run", result.run),
+    ]
+    return table(rows)

@@ -1,0 +1,19 @@
+"""The core's own components, announced through the same hooks as everyone's."""
+
+from __future__ import annotations
+
+from grammarbt.plugins.builtin_formats import FORMATS
+from grammarbt.plugins.hookspecs import hookimpl
+from grammarbt.plugins.specs import FormatSpec, SearcherSpec
+
+
+@hookimpl
+def grammarbt_searchers() -> tuple[SearcherSpec, ...]:
+    """The searchers that need no plugin."""
+    return (SearcherSpec("random", "grammarbt.search.random:RandomSearch", help="Samples words of the grammar."),)
+
+
+@hookimpl
+def grammarbt_formats() -> tuple[FormatSpec, ...]:
+    """The tree formats that need no plugin."""
+    return FORMATS

@@ -18,3 +18,15 @@ def run_python():
         ).stdout
 
     return run
+
+
+@pytest.fixture
+def cli():
+    """Runs the command line in a process of its own."""
+
+    def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [sys.executable, "-m", "grammarbt", *arguments], check=False, capture_output=True, text=True
+        )
+
+    return run

@@ -108,7 +108,8 @@ class LiveDisplay(Display):
     def phase(self, name: str, episodes: int) -> None:
         """Begin a new bar."""
         super().phase(name, episodes)
-        self._bar.reset(self._task, description=name, total=episodes or None, rate="")
+        self._bar.remove_task(self._task)
+        self._task = self._bar.add_task(name, total=episodes or None, rate="")
 
     def _render(self) -> Group:
         self._bar.update(self._task, completed=self.done, rate=f"{self.rate:,.0f}")

@@ -1,0 +1,58 @@
+"""Calling a simulator behind a guard: what it gets wrong is data, not a crash."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from attrs import frozen
+
+from grammarbt.domain import Outcome
+from grammarbt.search import EvaluationStatus
+
+if TYPE_CHECKING:
+    from grammarbt.bt import Policy
+    from grammarbt.domain import Domain, Scenarios
+
+
+@frozen
+class Simulation:
+    """What simulating gave.
+
+    Attributes:
+        returns: one per scenario; empty unless the status is `"ok"`.
+        ticks: how often each leaf was ticked, over all episodes.
+        status: `"failed"` when the simulator raised, `"invalid"` when its answer cannot be used.
+        error: the reason when it is not `"ok"`.
+    """
+
+    returns: tuple[float, ...] = ()
+    ticks: tuple[int, ...] = ()
+    status: EvaluationStatus = "ok"
+    error: str = ""
+
+
+def simulate(domain: Domain, policy: Policy, scenarios: Scenarios) -> Simulation:
+    """Simulate one episode per scenario; whatever the simulator raises becomes the status."""
+    try:
+        outcome = domain.simulate(policy, scenarios)
+    except Exception as error:  # noqa: BLE001 - a simulator is foreign code: whatever it raises is this trial's result
+        return Simulation(status="failed", error=f"{type(error).__name__}: {error}")
+    fault = _fault(outcome, policy, scenarios)
+    if fault:
+        return Simulation(status="invalid", error=fault)
+    return Simulation(tuple(outcome.returns.tolist()), tuple(outcome.ticks.tolist()))
+
+
+def _fault(outcome: object, policy: Policy, scenarios: Scenarios) -> str:
+    """What is wrong with a simulator's answer, or nothing."""
+    if not isinstance(outcome, Outcome):
+        return f"simulate gave a {type(outcome).__name__} instead of an Outcome"
+    returns, ticks = np.asarray(outcome.returns), np.asarray(outcome.ticks)
+    if returns.shape != scenarios.shape:
+        return f"simulate gave returns of shape {returns.shape} for {len(scenarios)} scenarios"
+    if ticks.shape != (policy.occurrences,):
+        return f"simulate gave ticks of shape {ticks.shape} for {policy.occurrences} leaves"
+    if not np.isfinite(returns).all():
+        return "simulate gave a return that is not a finite number"
+    return ""

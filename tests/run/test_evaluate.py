@@ -1,0 +1,103 @@
+"""Looking returns up, simulating only what is missing, and surviving bad simulators."""
+
+import numpy as np
+import pytest
+
+from grammarbt.bt import parse
+from grammarbt.domain import Outcome
+from grammarbt.run.evaluate import Evaluator
+
+
+def counting(lamps):
+    calls = []
+
+    class Counting(lamps):
+        def simulate(self, policy, scenarios):
+            calls.append(scenarios.tolist())
+            return super().simulate(policy, scenarios)
+
+    return Counting(), calls
+
+
+def test_known_returns_cost_no_episode_and_are_the_same(lamps, proposal):
+    domain, calls = counting(lamps)
+    evaluator = Evaluator(domain, seed=3)
+    first = evaluator.evaluate([proposal("[light left]", 0, 4)], 100)[0]
+    again = evaluator.evaluate([proposal("[light left]", 0, 4)], 0)[0]
+    assert again.evaluation.returns == first.evaluation.returns
+    assert (first.simulated, again.simulated, evaluator.episodes, len(calls)) == (4, 0, 4, 1)
+
+
+def test_only_the_missing_scenarios_are_simulated(lamps, proposal):
+    domain, calls = counting(lamps)
+    evaluator = Evaluator(domain, seed=0)
+    evaluator.evaluate([proposal("[light left]", 0, 2)], 100)
+    grown = evaluator.evaluate([proposal("[light left]", 0, 5)], 100)[0]
+    assert calls == [[0, 1], [2, 3, 4]]
+    assert (
+        grown.evaluation.returns
+        == Evaluator(lamps(), 0).evaluate([proposal("[light left]", 0, 5)], 5)[0].evaluation.returns
+    )
+
+
+def test_trees_that_behave_alike_share_returns(lamps, proposal):
+    evaluator = Evaluator(lamps(), seed=0)
+    evaluator.evaluate([proposal("→( [light left] [light right] )")], 10)
+    assert evaluator.evaluate([proposal("→( [light left] →( [light right] ) )")], 0)[0].simulated == 0
+
+
+def test_trees_that_behave_alike_share_nothing_where_the_tree_matters(lamps, proposal):
+    domain = type("Sized", (lamps,), {"depends_on": "tree"})()
+    evaluator = Evaluator(domain, seed=0)
+    evaluator.evaluate([proposal("→( [light left] [light right] )")], 10)
+    assert evaluator.evaluate([proposal("→( [light left] →( [light right] ) )")], 10)[0].simulated == 1
+
+
+def test_the_limit_is_never_passed(lamps, proposal):
+    evaluator = Evaluator(lamps(), seed=0)
+    asked = [proposal("[light left]", 0, 3), proposal("[light left]", 0, 4), proposal("[light right]", 0, 3)]
+    trials = evaluator.evaluate(asked, 6)
+    assert [trial.simulated for trial in trials] == [3, 1]
+    assert evaluator.episodes == 4
+
+
+def raises(_policy, _scenarios):
+    raise ZeroDivisionError("division by zero")
+
+
+@pytest.mark.parametrize(
+    ("simulate", "status", "reason"),
+    [
+        (raises, "failed", "ZeroDivisionError"),
+        (lambda p, s: Outcome(np.full(len(s), np.nan), np.zeros(p.occurrences, int)), "invalid", "finite"),
+        (lambda p, s: Outcome(np.zeros(len(s) + 1), np.zeros(p.occurrences, int)), "invalid", "shape"),
+        (lambda _, s: Outcome(np.zeros(len(s)), np.zeros(9, int)), "invalid", "ticks"),
+        (lambda _p, _s: 7.0, "invalid", "Outcome"),
+    ],
+)
+def test_a_bad_simulator_makes_a_bad_evaluation_and_no_crash(broken, proposal, simulate, status, reason):
+    evaluation = Evaluator(broken(simulate), 0).evaluate([proposal("[light left]")], 10)[0].evaluation
+    assert (evaluation.status, evaluation.returns) == (status, ())
+    assert reason in evaluation.error
+    assert evaluation.mean == float("-inf")
+
+
+def test_a_tree_with_a_foreign_leaf_is_invalid(lamps, proposal):
+    evaluation = Evaluator(lamps(), 0).evaluate([proposal("[dance]")], 10)[0].evaluation
+    assert evaluation.status == "invalid"
+    assert "dance" in evaluation.error
+
+
+def test_an_interruption_passes_through(broken, proposal):
+    def interrupted(_policy, _scenarios):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        Evaluator(broken(interrupted), 0).evaluate([proposal("[light left]")], 10)
+
+
+def test_known_returns_stand_in_the_order_simulated(lamps, proposal):
+    evaluator = Evaluator(lamps(), 0)
+    late = evaluator.evaluate([proposal("[light left]", 5, 6)], 10)[0].evaluation.returns
+    early = evaluator.evaluate([proposal("[light left]", 0, 1)], 10)[0].evaluation.returns
+    assert evaluator.known(parse("[light left]")) == late + early

@@ -7,17 +7,21 @@ parallel are control nodes, not is the decorator, actions and conditions are lea
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
-from typing import TypeAlias
+from reprlib import repr as shortened
+from typing import TYPE_CHECKING, TypeAlias
 
 from attrs import Attribute, field, frozen
 
 from grammarbt.errors import NotationError
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
 MAX_DEPTH = 256
 """Levels of the deepest tree; BehaviorTree.CPP refuses more, and no reader gets lost in fewer."""
 
-_FORBIDDEN = re.compile(r"[\[\](){}\x00-\x1f\x7f-\x9f\u2028\u2029]")
+_FORBIDDEN = re.compile(r"[\[\](){}\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufffe\uffff]")
+"""Signs of the notation, control characters, line separators, and what no UTF-8 or XML file can hold."""
 
 Arguments: TypeAlias = tuple[tuple[str, str], ...]
 
@@ -25,7 +29,7 @@ Arguments: TypeAlias = tuple[tuple[str, str], ...]
 def _check_name(_: object, attribute: Attribute[str], value: str) -> None:
     if not value or value != value.strip() or _FORBIDDEN.search(value):
         raise NotationError(
-            f"a leaf cannot have the {attribute.name} {value!r}",
+            f"a leaf cannot have the {attribute.name} {shortened(value)}",
             "names hold anything but brackets, parentheses, braces and control characters, with no space at the ends",
         )
 
@@ -34,7 +38,12 @@ def _check_arguments(_: object, __: Attribute[Arguments], value: Arguments) -> N
     for key, text in value:
         for part in (key, text):
             if not part or part != part.strip() or _FORBIDDEN.search(part) or set(part) & set("=,"):
-                raise NotationError(f"{part!r} cannot stand in a leaf's arguments", "write them as name(key=value)")
+                raise NotationError(
+                    f"{shortened(part)} cannot stand in a leaf's arguments", "write them as name(key=value)"
+                )
+    keys = [key for key, _ in value]
+    if len(set(keys)) < len(keys):
+        raise NotationError(f"a leaf's arguments name a key twice in {shortened(value)}", "give each key once")
 
 
 @frozen
@@ -82,7 +91,10 @@ def _reachable(node: Parallel, _: Attribute[int], value: int) -> None:
 
 @frozen
 class Parallel:
-    """Ticks all its children; succeeds at `successes` successes, fails when so many cannot be reached any more."""
+    """Ticks its children left to right until `successes` of them succeed, or so many can no longer be reached.
+
+    When all have been ticked and neither has happened, it is running.
+    """
 
     children: tuple[Node, ...] = field(validator=_some)
     successes: int = field(validator=_reachable)

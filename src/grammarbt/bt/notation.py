@@ -9,6 +9,7 @@ tokens is free. After `!`, `(c)` and `((c))` read alike.
 from __future__ import annotations
 
 import re
+from reprlib import repr as shortened
 from typing import TypeAlias
 
 from attrs import frozen
@@ -29,7 +30,6 @@ from grammarbt.bt.model import (
 from grammarbt.errors import NotationError
 
 _OPERATOR = re.compile(r"\?|→|->|!|(?:‖|\|\|)(\d+)")
-_LEAF = re.compile(r"\s*([^\[\](){}]*?)\s*(?:\(([^\[\](){}]*)\))?\s*$")
 _LOOKS_LIKE_OPERATOR = re.compile(r"\?|→|->|!|(?:‖|\|\|)\d")
 _EXCERPT = 24
 
@@ -60,9 +60,31 @@ def format_tree(tree: BehaviorTree) -> str:
 
 def format_leaf(leaf: Leaf) -> str:
     """Write a leaf: `[name]`, `(name)`, or with arguments `[name(key=value)]`."""
-    arguments = ",".join(f"{key}={value}" for key, value in leaf.arguments)
-    name = f"{leaf.name}({arguments})" if arguments else leaf.name
-    return f"[{name}]" if isinstance(leaf, Action) else f"({name})"
+    text = leaf_text(leaf)
+    return f"[{text}]" if isinstance(leaf, Action) else f"({text})"
+
+
+def leaf_text(leaf: Leaf) -> str:
+    """What stands between a leaf's brackets; `read_leaf` reads it."""
+    if not leaf.arguments:
+        return leaf.name
+    return f"{leaf.name}({','.join(f'{key}={value}' for key, value in leaf.arguments)})"
+
+
+def read_leaf(text: str, kind: type[Action | Condition]) -> Leaf:
+    """Read what stands between a leaf's brackets: `name` or `name(key=value,key=value)`.
+
+    Raises:
+        NotationError: the name or an argument holds what it must not.
+    """
+    name, opening, arguments = text.strip().partition("(")
+    if not opening:
+        return kind(name)
+    if not arguments.endswith(")"):
+        raise NotationError(
+            f"cannot read the leaf {shortened(text)}", "write [action], (condition) or [action(key=value)]"
+        )
+    return kind(name.rstrip(), _arguments(arguments[:-1]))
 
 
 def operator(node: Node) -> str:
@@ -155,12 +177,9 @@ class _Reader:
         if opening not in ("[", "("):
             raise self.error("expected a tree", "a tree starts with ?, →, !, ‖2, [action] or (condition)")
         end = self.closing(opening)
-        inside = _LEAF.match(self.text, self.at + 1, end)
-        if inside is None:
-            raise self.error("not a leaf", "write [action], (condition) or [action(key=value)]")
         kind: type[Action | Condition] = Action if opening == "[" else Condition
         try:
-            found = kind(inside.group(1), _arguments(inside.group(2)))
+            found = read_leaf(self.text[self.at + 1 : end], kind)
         except NotationError as error:
             raise self.error(error.message, error.hint) from None
         self.at = end + 1
@@ -228,10 +247,8 @@ def _small_number(digits: str) -> int:
     return int(digits[:9])  # more children than this do not exist; int() refuses thousands of digits
 
 
-def _arguments(text: str | None) -> Arguments:
-    if text is None:
-        return ()
+def _arguments(text: str) -> Arguments:
     pairs = [part.partition("=") for part in text.split(",")]
     if any(not sign for _, sign, _ in pairs):
-        raise NotationError(f"cannot read the arguments {text!r}", "write them as name(key=value,key=value)")
+        raise NotationError(f"cannot read the arguments {shortened(text)}", "write them as name(key=value,key=value)")
     return tuple((key.strip(), value.strip()) for key, _, value in pairs)

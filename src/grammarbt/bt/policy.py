@@ -7,23 +7,24 @@ associativity, single children or double negation compile to the same policy.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Fallback, Leaf, Node, Not, Parallel, Sequence
+from grammarbt.bt.compiler import FAILURE, RUNNING, SUCCESS, Compiler, visit_order
+from grammarbt.bt.model import BehaviorTree, Leaf
 from grammarbt.bt.notation import format_leaf
 from grammarbt.bt.status import Status
 from grammarbt.errors import DomainError, did_you_mean
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
 IntArray: TypeAlias = NDArray[np.int32]
 
-SUCCESS, FAILURE, RUNNING = -1, -2, -3
-"""Ends of a tick, in the place of a next entry."""
-
+Step: TypeAlias = tuple[int, int, int, int]
 _STATUS = {SUCCESS: Status.SUCCESS, FAILURE: Status.FAILURE, RUNNING: Status.RUNNING}
 MAX_ENTRIES = 100_000
 
@@ -76,18 +77,14 @@ class Policy:
     tree: BehaviorTree = field(repr=False)
 
 
-Continuation: TypeAlias = Callable[[], int]
-
-
 def flatten(tree: BehaviorTree) -> FlatTree:
     """Compile a tree; unreachable leaves have no entry, and entries are numbered in the order of first visit.
 
     Raises:
         DomainError: nested parallel nodes need more than `MAX_ENTRIES` entries.
     """
-    compiler = _Compiler()
-    start = compiler.compile(tree, 0, SUCCESS, FAILURE, RUNNING)
-    return compiler.renumbered(start)
+    flattener = _Flattener()
+    return flattener.flat(flattener.start(tree))
 
 
 def compile_policy(tree: BehaviorTree, index: Mapping[Leaf, int]) -> Policy:
@@ -129,98 +126,34 @@ def _number(leaf: Leaf, index: Mapping[Leaf, int]) -> int:
     return number
 
 
-class _Compiler:
-    """Compiles from right to left, so that where a leaf leads is known before the leaf itself."""
+class _Flattener(Compiler):
+    """Gives every leaf one step per way of going on after it; steps name leaves by how far they are from the end."""
 
     def __init__(self) -> None:
-        self.entries: list[Entry] = []
-        self.known: dict[tuple[int, int, int, int], int] = {}
-        self.sizes: dict[int, int] = {}
-        self.total = 0
+        super().__init__()
+        self.steps: list[Step] = []
+        self.leaves: list[Leaf] = []
+        self.known: dict[Step, int] = {}
 
-    def compile(self, node: Node, first: int, success: int, failure: int, running: int) -> int:
-        """The index at which ticking `node` starts; `first` is the occurrence of its first leaf."""
-        if isinstance(node, Action | Condition):
-            return self.leaf(node, first, success, failure, running)
-        if isinstance(node, Not):
-            return self.compile(node.child, first, failure, success, running)
-        if isinstance(node, Parallel):
-            return self.parallel(node, first, success, failure, running)
-        at = success if isinstance(node, Sequence) else failure
-        for child, start in reversed(self.placed(node, first)):
-            if isinstance(node, Sequence):
-                at = self.compile(child, start, at, failure, running)
-            else:
-                at = self.compile(child, start, success, at, running)
-        return at
-
-    def leaf(self, leaf: Leaf, occurrence: int, success: int, failure: int, running: int) -> int:
-        self.total = max(self.total, occurrence + 1)
-        key = (occurrence, success, failure, running)
-        if key not in self.known:
-            if len(self.entries) >= MAX_ENTRIES:
+    def leaf(self, leaf: Leaf, success: int, failure: int, running: int) -> int:
+        key = (self.behind, success, failure, running)
+        at = self.known.get(key)
+        if at is None:
+            at = self.known[key] = len(self.steps)
+            if at >= MAX_ENTRIES:
                 raise DomainError(
                     f"the tree's parallel nodes unroll to more than {MAX_ENTRIES:,} steps", "nest fewer of them"
                 )
-            self.known[key] = len(self.entries)
-            self.entries.append(Entry(leaf, occurrence, success, failure, running))
-        return self.known[key]
+            self.steps.append(key)
+            self.leaves.append(leaf)
+        return at
 
-    def parallel(self, node: Parallel, first: int, success: int, failure: int, running: int) -> int:
-        """Unroll the counters: one copy of a child per (successes, failures) it may find."""
-        parts = self.placed(node, first)
-        allowed = len(parts) - node.successes
-        memo: dict[tuple[int, int, int], int] = {}
-
-        def at(index: int, won: int, lost: int) -> int:
-            if won == node.successes:
-                return success
-            if lost > allowed:
-                return failure
-            if index == len(parts):
-                return running
-            key = (index, won, lost)
-            if key not in memo:
-                child, start = parts[index]
-                after = (at(index + 1, won + 1, lost), at(index + 1, won, lost + 1), at(index + 1, won, lost))
-                memo[key] = self.compile(child, start, *after)
-            return memo[key]
-
-        return at(0, 0, 0)
-
-    def placed(self, node: Fallback | Sequence | Parallel, first: int) -> list[tuple[Node, int]]:
-        placed = []
-        for child in node.children:
-            placed.append((child, first))
-            first += self.size(child)
-        self.total = max(self.total, first)
-        return placed
-
-    def size(self, node: Node) -> int:
-        if isinstance(node, Action | Condition):
-            return 1
-        if id(node) not in self.sizes:  # the tree outlives the compiler, so an id stays one node's
-            parts = (node.child,) if isinstance(node, Not) else node.children
-            self.sizes[id(node)] = sum(self.size(part) for part in parts)
-        return self.sizes[id(node)]
-
-    def renumbered(self, start: int) -> FlatTree:
-        """Drop what no tick reaches, and number the rest in pre-order: success first."""
-        order: dict[int, int] = {}
-        stack = [start]
-        while stack:
-            at = stack.pop()
-            if at < 0 or at in order:
-                continue
-            order[at] = len(order)
-            entry = self.entries[at]
-            stack.extend((entry.on_running, entry.on_failure, entry.on_success))
-
-        def new(at: int) -> int:
-            return order.get(at, at)
-
-        entries = tuple(
-            Entry(entry.leaf, entry.occurrence, new(entry.on_success), new(entry.on_failure), new(entry.on_running))
-            for entry in (self.entries[at] for at in order)
-        )
-        return FlatTree(entries, 0, self.total)
+    def flat(self, start: int) -> FlatTree:
+        """Drop what no tick reaches, and number the rest in the order of first visit."""
+        order, total = visit_order(self.steps, start), -self.behind
+        new = {**order, SUCCESS: SUCCESS, FAILURE: FAILURE, RUNNING: RUNNING}
+        entries = []
+        for at in order:
+            behind, success, failure, running = self.steps[at]
+            entries.append(Entry(self.leaves[at], total + behind, new[success], new[failure], new[running]))
+        return FlatTree(tuple(entries), 0, total)

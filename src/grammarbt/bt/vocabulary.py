@@ -94,6 +94,11 @@ class Vocabulary:
                 found.update((leaf, condition) for leaf in _conditions(condition))
         return found
 
+    def is_pure(self, condition: Condition) -> bool:
+        """Whether the condition is declared to draw no randomness and to change only when an action runs."""
+        declared = self.types.get(condition)
+        return isinstance(declared, ConditionType) and declared.pure
+
 
 def actions_of(group: Group) -> tuple[Action, ...]:
     """The group's actions, one for every combination of arguments."""

@@ -1,0 +1,4 @@
+"""File formats of trees, a module each, with `dumps(tree)` and, where it can be read, `loads(text)`.
+
+`grammarbt.plugins.builtin_formats` lists them by name.
+"""

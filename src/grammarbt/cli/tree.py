@@ -12,6 +12,7 @@ import click
 from grammarbt.bt import Action, BehaviorTree, Condition, Node, children, format_leaf, format_tree
 from grammarbt.bt.notation import operator
 from grammarbt.cli.app import open_registry
+from grammarbt.cli.failures import SUCCESS
 from grammarbt.cli.output import emit_json
 from grammarbt.errors import FormatError
 from grammarbt.plugins.resolve import load
@@ -78,7 +79,7 @@ def simplify(tree: str, domain: str | None) -> None:
 @click.argument("other")
 @_domain
 @_as_json
-def diff(one: str, other: str, domain: str | None, as_json: bool) -> None:
+def diff(one: str, other: str, domain: str | None, as_json: bool) -> int:
     """Say whether ONE and OTHER always behave alike; exit with 1 and a shortest difference if not."""
     from grammarbt.bt.compare import difference  # noqa: PLC0415  only this verb needs it
 
@@ -93,8 +94,7 @@ def diff(one: str, other: str, domain: str | None, as_json: bool) -> None:
     else:
         lines = [f"{leaf} answers {status}" for leaf, status in answers]
         print("\n".join([*lines, f"then the first tree {found.one}", f"and the second {found.other}"]))
-    if found is not None:
-        raise SystemExit(DIFFERENT)
+    return SUCCESS if found is None else DIFFERENT
 
 
 def drawing(tree: BehaviorTree) -> str:

@@ -1,0 +1,1 @@
+"""Monte Carlo search over the derivation DAG of a grammar."""

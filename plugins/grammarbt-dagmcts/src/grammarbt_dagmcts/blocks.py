@@ -1,0 +1,204 @@
+"""The derivation DAG of one block, say of a group's sub-trees, in leftmost order.
+
+A block whose words can be listed keeps one word per behaviour, the shortest, and weights that make a random walk draw
+short words first. A larger one is derived as the walks go, by the productions' own weights.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from graphlib import CycleError, TopologicalSorter
+from math import exp, log
+
+import numpy as np
+from attrs import define, field, frozen
+
+from grammarbt.bt import BehaviorTree, leaves
+from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
+from grammarbt_dagmcts.bandits import Arm, Bandit
+
+SHORTNESS = 0.2
+"""How much less a word weighs per token."""
+
+FORMS_PER_WORD = 4
+"""Partial sub-trees up to which a block is listed, per word that it may have."""
+
+Behaviour = Callable[[BehaviorTree], object]
+"""Equal for trees of which one is enough."""
+
+
+@frozen
+class Piece:
+    """A sub-tree of a block.
+
+    Attributes:
+        block: the nonterminal.
+        derivation: leftmost, from the block.
+        word: the symbols; tells pieces apart.
+        tree: the sub-tree.
+        size: leaves of the sub-tree.
+    """
+
+    block: int
+    derivation: Derivation = field(eq=False)
+    word: tuple[int, ...]
+    tree: BehaviorTree = field(eq=False)
+    size: int = field(eq=False)
+
+
+@define(eq=False)
+class BlockNode(Arm):
+    """A partial sub-tree; `children` is None until it is expanded, and holds (production, node, weight)."""
+
+    form: SententialForm
+    children: list[tuple[int, BlockNode, float]] | None = field(default=None, repr=False)
+    piece: Piece | None = field(default=None, init=False, repr=False)
+
+
+def piece_of(grammar: BoundGrammar, block: int, derivation: Derivation) -> Piece:
+    """The piece that a leftmost derivation from the block gives."""
+    form = grammar.derive(derivation, block)
+    tree = grammar.tree(form)
+    return Piece(block, derivation, form.symbols, tree, len(leaves(tree)))
+
+
+class BlockDag:
+    """One block's partial sub-trees, with the credit they earned.
+
+    Args:
+        grammar: the language.
+        block: the nonterminal.
+        behaviour: tells which words are worth keeping apart.
+        most: words up to which the block is listed.
+    """
+
+    def __init__(self, grammar: BoundGrammar, block: int, behaviour: Behaviour, most: int) -> None:
+        self.grammar = grammar
+        self.block = block
+        self.nodes: dict[SententialForm, BlockNode] = {}
+        self.root = self._node(grammar.start(block))
+        listed = self._list(most)
+        if listed is None:
+            self.nodes.clear()
+            self.root = self._node(grammar.start(block))
+            self.words = most
+        else:
+            self.words = self._prune(listed, behaviour)
+
+    @property
+    def weight(self) -> float:
+        """How much the block deserves when nothing is known: grows slowly with its words; it has some."""
+        return log(self.words) + 0.7
+
+    def draw(
+        self, rng: np.random.Generator, prefix: Derivation, bandit: Bandit | None
+    ) -> tuple[list[BlockNode], Piece]:
+        """A word and the nodes on the way to it.
+
+        Starts along `prefix`, as far as it leads, goes on by the bandit as long as all children have earned credit,
+        and from there, or if there is no bandit, at random by weight.
+        """
+        path, derivation = self._follow(prefix)
+        while children := self._expanded(path[-1]):
+            unvisited = [child for child in children if not child[1].visits] if bandit else children
+            if bandit and not unvisited:
+                production, node = _most_urgent(bandit, path[-1], children)
+            else:
+                production, node = _by_weight(rng, unvisited)
+                bandit = None
+            path.append(node)
+            derivation.append(production)
+        return path, self._piece(path[-1], derivation)
+
+    def _follow(self, prefix: Derivation) -> tuple[list[BlockNode], list[int]]:
+        path, derivation = [self.root], list[int]()
+        for production in prefix:
+            step = next((node for number, node, _ in self._expanded(path[-1]) if number == production), None)
+            if step is None:
+                break
+            path.append(step)
+            derivation.append(production)
+        return path, derivation
+
+    def _piece(self, node: BlockNode, derivation: list[int]) -> Piece:
+        if node.piece is None:
+            node.piece = piece_of(self.grammar, self.block, tuple(derivation))
+        return node.piece
+
+    def _node(self, form: SententialForm) -> BlockNode:
+        node = self.nodes.get(form)
+        if node is None:
+            node = self.nodes[form] = BlockNode(form)
+        return node
+
+    def _expanded(self, node: BlockNode) -> list[tuple[int, BlockNode, float]]:
+        if node.children is None:
+            word = self.grammar.is_word(node.form)
+            legal = () if word else self.grammar.legal(node.form)
+            node.children = [
+                (production, self._after(node, production), self._weight(production)) for production in legal
+            ]
+        return node.children
+
+    def _after(self, node: BlockNode, production: int) -> BlockNode:
+        return self._node(self.grammar.apply(node.form, production))
+
+    def _weight(self, production: int) -> float:
+        return self.grammar.productions[production].weight
+
+    def _list(self, most: int) -> list[BlockNode] | None:
+        """Every node, each after its children; None if there are more than `most` words or the walk has no end."""
+        words, pending = 0, [self.root]
+        while pending:
+            node = pending.pop()
+            if node.children is None:
+                children = [child for _, child, _ in self._expanded(node)]
+                words += not children
+                if words > most or len(self.nodes) > FORMS_PER_WORD * most:
+                    return None
+                pending.extend(children)
+        return self._children_first()
+
+    def _children_first(self) -> list[BlockNode] | None:
+        order = TopologicalSorter(
+            {node: [child for _, child, _ in node.children or ()] for node in self.nodes.values()}
+        )
+        try:
+            return list(order.static_order())
+        except CycleError:
+            return None
+
+    def _prune(self, nodes: list[BlockNode], behaviour: Behaviour) -> int:
+        """Keep the shortest word of each behaviour and what leads to it; gives the number of words kept."""
+        words = [node for node in nodes if self.grammar.is_word(node.form)]
+        words.sort(key=lambda node: self._tokens(node.form))
+        kept: dict[object, BlockNode] = {}
+        for node in words:
+            kept.setdefault(behaviour(self.grammar.tree(node.form)), node)
+        weights = {node: exp(-SHORTNESS * self._tokens(node.form)) for node in kept.values()}
+        for node in nodes:
+            if node.children:
+                weighed = [(number, child, weights[child]) for number, child, _ in node.children if child in weights]
+                node.children = weighed
+                if weighed:
+                    weights[node] = sum(weight for _, _, weight in weighed)
+        return len(kept)
+
+    def _tokens(self, form: SententialForm) -> int:
+        return sum(not self.grammar.is_marker(symbol) for symbol in form.symbols)
+
+
+def _by_weight(rng: np.random.Generator, children: list[tuple[int, BlockNode, float]]) -> tuple[int, BlockNode]:
+    drawn = float(rng.random()) * sum(weight for _, _, weight in children)
+    for production, node, weight in children:
+        drawn -= weight
+        if drawn < 0.0:
+            return production, node
+    return children[-1][:2]
+
+
+def _most_urgent(
+    bandit: Bandit, parent: BlockNode, children: list[tuple[int, BlockNode, float]]
+) -> tuple[int, BlockNode]:
+    trials = max(parent.visits, 1)
+    return max(children, key=lambda child: bandit.index(child[1], child[1].visits, trials))[:2]

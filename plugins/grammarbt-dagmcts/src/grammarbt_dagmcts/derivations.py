@@ -1,0 +1,101 @@
+"""Derivations in any order, and the sub-trees that searchers treat as units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from attrs import define, field
+
+from grammarbt.errors import GrammarError
+from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
+
+Step = tuple[SententialForm, int, int]
+"""A form, the position that was rewritten, and the production."""
+
+Template = tuple[int | None, ...]
+"""A leftmost derivation in which None stands for a nonterminal that was left alone."""
+
+
+@define(eq=False)
+class _Open:
+    production: int | None = None
+    parts: list[_Open] = field(factory=list)
+
+
+def leftmost(grammar: BoundGrammar, steps: Iterable[Step]) -> Template:
+    """The leftmost order of a derivation from one nonterminal, whose steps may come in any order."""
+    root = _Open()
+    frontier = [root]
+    for form, position, production in steps:
+        at = grammar.positions(form).index(position)
+        rewritten = frontier[at]
+        rewritten.production = production
+        rewritten.parts = [_Open() for _ in nonterminals(grammar, production)]
+        frontier[at : at + 1] = rewritten.parts
+    return _preorder(root)
+
+
+def nonterminals(grammar: BoundGrammar, production: int) -> list[int]:
+    """The nonterminals on the right of a production, left to right."""
+    return [symbol for symbol in grammar.productions[production].rhs if grammar.is_nonterminal(symbol)]
+
+
+def complete(template: Template, parts: Sequence[Derivation]) -> Derivation:
+    """The template with a derivation in the place of each nonterminal that was left alone."""
+    found: list[int] = []
+    remaining = iter(parts)
+    for production in template:
+        if production is None:
+            found.extend(next(remaining))
+        else:
+            found.append(production)
+    return tuple(found)
+
+
+def block_derivations(grammar: BoundGrammar, derivation: Derivation) -> list[tuple[int, Derivation]]:
+    """The outermost blocks of a derivation, left to right, each with its own part of the derivation."""
+    found: list[tuple[int, Derivation]] = []
+    at = 0
+    while at < len(derivation):
+        symbol = grammar.productions[derivation[at]].lhs
+        if symbol in grammar.blocks:
+            end = _end(grammar, derivation, at)
+            found.append((symbol, derivation[at:end]))
+            at = end
+        else:
+            at += 1
+    return found
+
+
+def position_of(grammar: BoundGrammar, parent: SententialForm, production: int, child: SententialForm) -> int:
+    """Where a production must be applied to the parent to get the child."""
+    lhs = grammar.productions[production].lhs
+    candidates = [at for at in grammar.positions(parent) if parent.symbols[at] == lhs]
+    return next(at for at in candidates if _leads_to(grammar, parent, production, at, child))
+
+
+def _leads_to(
+    grammar: BoundGrammar, parent: SententialForm, production: int, position: int, child: SententialForm
+) -> bool:
+    try:
+        return grammar.apply(parent, production, position) == child
+    except GrammarError:  # it breaks a constraint there
+        return False
+
+
+def _end(grammar: BoundGrammar, derivation: Derivation, at: int) -> int:
+    pending = 1
+    while pending:
+        pending += len(nonterminals(grammar, derivation[at])) - 1
+        at += 1
+    return at
+
+
+def _preorder(root: _Open) -> Template:
+    found: list[int | None] = []
+    stack = [root]
+    while stack:
+        node = stack.pop()
+        found.append(node.production)
+        stack.extend(reversed(node.parts))
+    return tuple(found)

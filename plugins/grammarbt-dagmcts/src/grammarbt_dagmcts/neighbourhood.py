@@ -1,0 +1,198 @@
+"""The edges out of a root tree: add or change a sub-tree of some block, move one, delete one."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
+from itertools import accumulate
+from typing import Literal
+
+import numpy as np
+from attrs import define, field, frozen
+
+from grammarbt.grammar import Derivation
+from grammarbt_dagmcts.bandits import Arm, Bandit
+from grammarbt_dagmcts.blocks import BlockDag, BlockNode, Piece
+from grammarbt_dagmcts.race import Runner
+from grammarbt_dagmcts.rootlist import ListedTree, RootList
+
+INSERT = 0.85
+"""Chance that adding inserts; else it replaces what stands there."""
+UNDO = 0.2
+"""Chance that changing undoes the last productions of the sub-tree and derives it again; else it draws a new one."""
+MOST_UNDONE = 6
+MOVE_CHANGED = 0.4
+"""Chance that a changed sub-tree also moves."""
+FURTHER_EDGE = 0.15
+MOST_EDGES = 3
+ABSENT = 6.0
+"""How much more a block weighs that the root lacks, in blind draws."""
+MOVE_WEIGHT = 3.0
+DELETE_WEIGHT = 0.7
+INFORMED_DRAWS = 4
+BLIND_DRAWS = 200
+
+Key = tuple[tuple[int, ...], ...]
+
+
+@frozen
+class Edge:
+    """A kind of edge; `block` is the nonterminal that is added or changed."""
+
+    kind: Literal["add", "change", "move", "delete"]
+    block: int = -1
+
+
+@define(eq=False)
+class Draft:
+    """A tree under construction: its pieces, the way through the block DAGs, and how many root positions are reached."""
+
+    pieces: list[Piece]
+    reached: int
+    path: list[BlockNode] = field(factory=list)
+
+
+@frozen(eq=False)
+class Neighbour:
+    """A tree one step from the root.
+
+    Attributes:
+        listed: the tree.
+        credited: what its advantage is credited to; empty for steps of several edges.
+    """
+
+    listed: ListedTree
+    credited: tuple[Arm, ...]
+
+
+def key_of(pieces: Sequence[Piece]) -> Key:
+    """Tells lists of pieces apart."""
+    return tuple(piece.word for piece in pieces)
+
+
+class Neighbourhood:
+    """Everything one step from a root.
+
+    `reached` is how many root positions ticks arrive at, `closed` what is not to be drawn again, `waiting` what lost once
+    and gets one more chance.
+
+    Args:
+        root: its pieces.
+        lists: puts pieces together.
+        blocks: the DAG of each block.
+        bandit: chooses edges and block nodes.
+        rng: randomness.
+    """
+
+    def __init__(
+        self,
+        root: Sequence[Piece],
+        lists: RootList,
+        blocks: Mapping[int, BlockDag],
+        bandit: Bandit,
+        rng: np.random.Generator,
+    ) -> None:
+        self.root = tuple(root)
+        self.reached = len(self.root) + 1
+        self.lists = lists
+        self.blocks = blocks
+        self.bandit = bandit
+        self.rng = rng
+        self.arms = {edge: Arm() for edge in self._edges()}
+        self._shares = list(accumulate(self._weight(edge) for edge in self.arms))
+        self.closed = {key_of(self.root)}
+        self.waiting: dict[Key, Runner] = {}
+
+    def _edges(self) -> list[Edge]:
+        present = [piece.block for piece in self.root]
+        adds = [Edge("add", block) for block in self.blocks if self._can_add(block)]
+        changes = [Edge("change", block) for block in self.blocks if block in present]
+        return [*adds, *changes, Edge("move"), Edge("delete")]
+
+    def _can_add(self, block: int) -> bool:
+        own = tuple(piece.block for piece in self.root)
+        return any(self.lists.allows((*own[:at], block, *own[at:])) for at in range(len(own) + 1))
+
+    def draw(self) -> Neighbour | None:
+        """A tree that is not closed; None if none was found. The bandit goes first, then everything by weight."""
+        for attempt in range(INFORMED_DRAWS + BLIND_DRAWS):
+            bandit = self.bandit if attempt < INFORMED_DRAWS else None
+            neighbour = self._step(self._urgent_edge() if bandit else self._edge_by_weight(), bandit)
+            if neighbour is not None:
+                return neighbour
+        return None
+
+    def _step(self, edge: Edge, bandit: Bandit | None) -> Neighbour | None:
+        draft = Draft(list(self.root), self.reached)
+        self._take(edge, draft, bandit)
+        edges = 1
+        while edges < MOST_EDGES and self.rng.random() < FURTHER_EDGE:
+            self._take(self._edge_by_weight(), draft, None)
+            edges += 1
+        listed = None if key_of(draft.pieces) in self.closed else self.lists.assemble(draft.pieces)
+        if listed is None:
+            return None
+        return Neighbour(listed, (self.arms[edge], *draft.path) if edges == 1 else ())
+
+    def _take(self, edge: Edge, draft: Draft, bandit: Bandit | None) -> None:
+        if edge.kind == "add":
+            self._add(edge.block, draft, bandit)
+        elif edge.kind == "change":
+            self._change(edge.block, draft, bandit)
+        elif edge.kind == "move":
+            self._move(self._below(len(draft.pieces)), draft)
+        elif len(draft.pieces) > 1:
+            del draft.pieces[self._below(len(draft.pieces))]
+
+    def _add(self, block: int, draft: Draft, bandit: Bandit | None) -> None:
+        piece = self._draw_piece(block, (), draft, bandit)
+        at = self._position(draft)
+        end = at if self.rng.random() < INSERT else at + 1
+        draft.pieces[at:end] = [piece]
+
+    def _change(self, block: int, draft: Draft, bandit: Bandit | None) -> None:
+        places = [at for at, piece in enumerate(draft.pieces) if piece.block == block]
+        if not places:
+            return
+        at = places[self._below(len(places))]
+        prefix: Derivation = ()
+        if self.rng.random() < UNDO:
+            old = draft.pieces[at].derivation
+            prefix = old[: max(0, len(old) - 1 - self._below(MOST_UNDONE))]
+        draft.pieces[at] = self._draw_piece(block, prefix, draft, bandit)
+        if self.rng.random() < MOVE_CHANGED:
+            self._move(at, draft)
+
+    def _move(self, at: int, draft: Draft) -> None:
+        piece = draft.pieces.pop(at)
+        draft.pieces.insert(self._position(draft), piece)
+
+    def _draw_piece(self, block: int, prefix: Derivation, draft: Draft, bandit: Bandit | None) -> Piece:
+        path, piece = self.blocks[block].draw(self.rng, prefix, bandit)
+        draft.path.extend(path)
+        return piece
+
+    def _position(self, draft: Draft) -> int:
+        return self._below(min(draft.reached, len(draft.pieces) + 1))
+
+    def _below(self, n: int) -> int:
+        return int(self.rng.integers(n))
+
+    def _urgent_edge(self) -> Edge:
+        """The edge with the highest index; untried ones first, at random."""
+        untried = [edge for edge, arm in self.arms.items() if not arm.visits]
+        if untried:
+            return untried[self._below(len(untried))]
+        trials = sum(arm.visits for arm in self.arms.values())
+        return max(self.arms, key=lambda edge: self.bandit.index(self.arms[edge], self.arms[edge].visits, trials))
+
+    def _edge_by_weight(self) -> Edge:
+        drawn = float(self.rng.random()) * self._shares[-1]
+        return list(self.arms)[bisect_right(self._shares, drawn)]
+
+    def _weight(self, edge: Edge) -> float:
+        if edge.kind == "move":
+            return MOVE_WEIGHT
+        if edge.kind == "delete":
+            return DELETE_WEIGHT
+        return self.blocks[edge.block].weight * (ABSENT if edge.kind == "add" else 1.0)

@@ -1,0 +1,1 @@
+"""Marine target search and response: a domain for grammarbt."""

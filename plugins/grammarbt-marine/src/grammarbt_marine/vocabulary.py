@@ -1,0 +1,90 @@
+"""What the marine robot can do and ask, in six groups."""
+
+from __future__ import annotations
+
+from grammarbt.bt import Status
+from grammarbt.domain import ActionType, ConditionType, Group, Vocabulary
+
+_GO_ON = frozenset({Status.FAILURE, Status.RUNNING})
+_WORK = frozenset({Status.SUCCESS, Status.FAILURE, Status.RUNNING})
+
+VOCABULARY = Vocabulary(
+    (
+        Group(
+            "g1",
+            actions=(
+                ActionType(
+                    "go to comms",
+                    "Move one edge towards the nearest vertex in comms; success once there.",
+                    results=frozenset({Status.SUCCESS, Status.RUNNING}),
+                ),
+                ActionType(
+                    "report",
+                    "Report every target found so far; fails outside comms.",
+                    results=frozenset({Status.SUCCESS, Status.FAILURE}),
+                ),
+            ),
+            conditions=(
+                ConditionType("in comms", "The robot is at the surface, near enough to the start to be heard."),
+                ConditionType("target found", "At some unreported vertex a target is almost certain."),
+                ConditionType("at surface", "The robot is at the surface."),
+            ),
+        ),
+        Group(
+            "g2",
+            actions=(
+                ActionType("disarm", "Disarm the mine here, in several steps; fails without a mine.", results=_WORK),
+            ),
+            conditions=(
+                ConditionType("mine found", "A mine is likely at the robot's vertex."),
+                ConditionType("is armed", "The robot's vertex has no mine that it has disarmed."),
+            ),
+        ),
+        Group(
+            "g3",
+            actions=(
+                ActionType(
+                    "pick up",
+                    "Pick up the object here, in several steps; fails without an object or with full hands.",
+                    results=_WORK,
+                ),
+                ActionType(
+                    "take to drop off",
+                    "Move one edge towards the drop-off and deliver there; fails with empty hands.",
+                    results=_WORK,
+                ),
+            ),
+            conditions=(
+                ConditionType("object found", "The robot carries an object, or one is likely at its vertex."),
+                ConditionType("carrying object", "The robot carries an object."),
+            ),
+        ),
+        Group(
+            "g4",
+            actions=(
+                ActionType(
+                    "go to likely target",
+                    "Move one edge towards the nearest vertex with a likely target; fails when there is none.",
+                    results=_GO_ON,
+                ),
+            ),
+            conditions=(
+                ConditionType("likely target found", "At some unreported vertex a target is likely, but not certain."),
+            ),
+        ),
+        Group(
+            "g5",
+            actions=(ActionType("random walk", "Move along a random edge.", results=frozenset({Status.RUNNING})),),
+        ),
+        Group(
+            "g6",
+            actions=(
+                ActionType(
+                    "shortest path",
+                    "Move one edge towards the nearest unvisited vertex; fails when all are visited.",
+                    results=_GO_ON,
+                ),
+            ),
+        ),
+    )
+)

@@ -1,0 +1,28 @@
+"""The default domain, shared by all tests, and what it takes to simulate a tree in notation."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from grammarbt.bt import compile_policy, parse
+from grammarbt_marine.domain import Marine
+
+sys.path.append(str(Path(__file__).parent))  # test folders are no packages; marine_reference is found this way
+
+
+@pytest.fixture(scope="session")
+def marine():
+    return Marine()
+
+
+@pytest.fixture(scope="session")
+def returns(marine):
+    """The returns of a tree in notation on the first so many scenarios."""
+
+    def simulate(tree, episodes):
+        policy = compile_policy(parse(tree), marine.vocabulary.index)
+        return marine.simulate(policy, np.arange(episodes)).returns
+
+    return simulate

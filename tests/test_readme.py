@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 from grammarbt.grammar import Source, bind, load_grammar
+from grammarbt_marine.vocabulary import VOCABULARY
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -22,8 +23,6 @@ def test_the_commands_are_targets_of_the_makefile():
 
 
 def test_the_grammar_in_the_readme_binds_to_the_marine_leaves():
-    from grammarbt_marine.vocabulary import VOCABULARY
-
     text = README.split("    %declare", 1)[1].split("\n\nTrees are", 1)[0]
     grammar = load_grammar(Source("README", "    %declare" + text))
     assert bind(grammar, VOCABULARY).start()

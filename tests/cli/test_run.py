@@ -118,7 +118,7 @@ def test_the_start_tree_is_tried_first(tmp_path):
         (["--budget", "-5"], "budget cannot be -5"),
         (["--budget", "many"], "many"),
         (["--seed", "-1"], "seed cannot be -1"),
-        (["--workers", "2"], "one worker"),
+        (["--workers", "2", "--executor", "serial"], "one worker"),
         (["--searcher", "randon"], "unknown searcher 'randon'"),
         (["--domain", "marin"], "unknown domain 'marin'"),
         (["--domain", "nowhere.py:Corridor"], "nowhere.py"),

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from grammarbt.bt import parse
 from grammarbt.domain import Outcome
@@ -101,3 +103,25 @@ def test_known_returns_stand_in_the_order_simulated(lamps, proposal):
     late = evaluator.evaluate([proposal("[light left]", 5, 6)], 10)[0].evaluation.returns
     early = evaluator.evaluate([proposal("[light left]", 0, 1)], 10)[0].evaluation.returns
     assert evaluator.known(parse("[light left]")) == late + early
+
+
+@pytest.fixture
+def asked(proposal):
+    """Proposals of few trees on many overlapping ranges."""
+    trees = ["[light left]", "[light right]", "(left lit)"]
+    return [proposal(trees[at % 7 % 3], at % 4, at % 4 + at % 3 + 1) for at in range(40)]
+
+
+@given(limit=st.integers(0, 30), batch=st.integers(1, 40))
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_a_batch_gives_what_its_proposals_give_one_by_one(lamps, broken, asked, limit, batch):
+    def fails_in_world_2(policy, scenarios):
+        return raises(policy, scenarios) if 2 in scenarios else lamps().simulate(policy, scenarios)
+
+    for domain in (lamps(), broken(fails_in_world_2)):
+        one_by_one, together = Evaluator(domain, 0), Evaluator(domain, 0)
+        expected = []
+        for each in asked[:batch]:
+            expected += one_by_one.evaluate([each], limit - one_by_one.episodes) or [None]
+        first_refused = expected.index(None) if None in expected else len(expected)
+        assert together.evaluate(asked[:batch], limit) == expected[:first_refused]

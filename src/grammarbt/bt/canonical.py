@@ -19,7 +19,7 @@ from grammarbt.errors import DomainError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-MAX_NODES = 4_096
+MAX_NODES = 1_000
 """Nodes of the largest reduced graph; conditions asked in unlucky orders can need exponentially many."""
 
 MAX_LEVEL_ONE_NODES = 100_000

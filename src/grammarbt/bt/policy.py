@@ -104,18 +104,17 @@ def compile_policy(tree: BehaviorTree, index: Mapping[Leaf, int]) -> Policy:
 
 def tick(flat: FlatTree, answer: Callable[[Leaf, int], Status]) -> Status:
     """Tick once; `answer(leaf, occurrence)` asks the world."""
-    at = flat.entry
+    at, entries, success, failure = flat.entry, flat.entries, Status.SUCCESS, Status.FAILURE
     while at >= 0:
-        entry = flat.entries[at]
+        entry = entries[at]
         status = answer(entry.leaf, entry.occurrence)
-        at = _next(entry, status)
+        if status is success:
+            at = entry.on_success
+        elif status is failure:
+            at = entry.on_failure
+        else:
+            at = entry.on_running
     return _STATUS[at]
-
-
-def _next(entry: Entry, status: Status) -> int:
-    if status is Status.SUCCESS:
-        return entry.on_success
-    return entry.on_failure if status is Status.FAILURE else entry.on_running
 
 
 def _number(leaf: Leaf, index: Mapping[Leaf, int]) -> int:

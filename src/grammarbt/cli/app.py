@@ -22,8 +22,10 @@ if TYPE_CHECKING:
 # Verb: where its command is, and its line in --help, which therefore imports none of them.
 VERBS: Mapping[str, tuple[str, str]] = {
     "run": ("grammarbt.cli.run:command", "Learn a tree: any searcher, any grammar, any domain."),
+    "resume": ("grammarbt.cli.resume:command", "Go on with a run, or give it a larger budget."),
     "evaluate": ("grammarbt.cli.evaluate:command", "Measure a tree on fresh scenarios."),
     "tree": ("grammarbt.cli.tree:command", "Show, convert, check or simplify a tree."),
+    "grammar": ("grammarbt.cli.grammar:command", "Check a grammar, count and sample its trees, read trees back."),
     "plugins": ("grammarbt.cli.plugins:command", "List plugins, or the parameters of one component."),
 }
 _FLAGS = ("--traceback", "--strict-plugins")

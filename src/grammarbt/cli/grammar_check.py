@@ -9,8 +9,10 @@ import click
 from grammarbt.cli.app import open_registry
 from grammarbt.cli.failures import SUCCESS, USER_MISTAKE
 from grammarbt.cli.output import emit_json, table
+from grammarbt.errors import GrammarError
 
 if TYPE_CHECKING:
+    from grammarbt.grammar import BoundGrammar
     from grammarbt.grammar.check import Report, Summary
 
 
@@ -28,12 +30,23 @@ def command(file: str, domain: str | None, as_json: bool) -> int:
 
     registry = open_registry()
     vocabulary = registry.make_domain(domain, {}).vocabulary if domain else None
-    report = check_source(registry.find_grammar(file), vocabulary)
+    report = check_source(registry.find_grammar(file), vocabulary, _words)
     if as_json:
         emit_json(report.as_json())
     else:
         print(_page(report))
     return USER_MISTAKE if report.errors else SUCCESS
+
+
+def _words(bound: BoundGrammar) -> int | None:
+    """How many words the language has, if that can be told."""
+    from grammarbt.grammar.automaton import Language  # noqa: PLC0415 - as above
+    from grammarbt.grammar.count import Counter  # noqa: PLC0415
+
+    try:
+        return Counter(Language(bound)).words(bound.start_symbol)
+    except GrammarError:
+        return None
 
 
 def _page(report: Report) -> str:

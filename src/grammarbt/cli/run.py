@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import attrs
@@ -10,7 +12,7 @@ import click
 
 from grammarbt.cli.app import open_registry
 from grammarbt.cli.output import emit_json, table
-from grammarbt.cli.progress import make_display
+from grammarbt.cli.progress import Display, make_display
 from grammarbt.run.execute import Result, execute
 from grammarbt.run.setup import prepare
 from grammarbt.run.spec import RunSpec, read_spec, settings_of
@@ -26,7 +28,7 @@ from grammarbt.run.spec import RunSpec, read_spec, settings_of
 @click.option("--seed", type=int, metavar="N", help="Fixes everything random; 0 unless given.")
 @click.option("--batch", type=int, metavar="N", help="Trees asked for at a time; 1 unless given.")
 @click.option("--workers", type=int, metavar="N", help="Simulations side by side; 1 unless given.")
-@click.option("--executor", metavar="NAME", help="What runs the workers; serial unless given.")
+@click.option("--executor", metavar="NAME", help="What simulates: serial, or processes if there are workers.")
 @click.option("--out", metavar="DIR", help="The run folder, new or empty; a fresh one under runs/ unless given.")
 @click.option("--start", metavar="TREE", help="A tree to begin from: notation, a file or a run folder.")
 @click.option("--trials", type=int, metavar="N", help="Stop the search after so many trials.")
@@ -51,22 +53,34 @@ def command(spec: str | None, settings: tuple[str, ...], as_json: bool, quiet: b
     registry = open_registry()
     display = make_display(registry.host, quiet=quiet)
     setup = prepare(asked, registry)
+    with interruptible(display):
+        result = execute(setup, display)
+    emit(result, as_json=as_json)
+
+
+@contextmanager
+def interruptible(display: Display) -> Iterator[None]:
+    """Show the display; after Ctrl-C, say where to find what was found."""
     try:
         with display.shown():
-            result = execute(setup, display)
+            yield
     except KeyboardInterrupt:
-        print(f"interrupted; what was found is in {display.path}", file=sys.stderr)
+        print(f"interrupted; go on with: grammarbt resume {display.path}", file=sys.stderr)
         raise
+
+
+def emit(result: Result, *, as_json: bool) -> None:
+    """Print what a run found."""
     if as_json:
         emit_json(attrs.asdict(result))
     else:
-        print(_summary(result, asked.validation))
+        print(_summary(result))
 
 
-def _summary(result: Result, worlds: int) -> str:
+def _summary(result: Result) -> str:
     rows = [
         ("tree", result.tree),
-        ("value", f"{result.value:.5g} ± {result.stderr:.2g} on {worlds:,} fresh worlds"),
+        ("value", f"{result.value:.5g} ± {result.stderr:.2g} on {result.validation:,} fresh worlds"),
     ]
     if result.reference:
         other = result.reference

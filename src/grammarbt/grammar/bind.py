@@ -13,6 +13,7 @@ from grammarbt.grammar.constraints import Costs, compile_costs
 from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError
 from grammarbt.grammar.expand import expand
 from grammarbt.grammar.model import KINDS, START, Grammar
+from grammarbt.grammar.needs import EntangledError
 from grammarbt.grammar.shape import levels, operators, shape_findings
 from grammarbt.grammar.symbols import Nonterminal, PlainProduction
 from grammarbt.grammar.syntax import Limit, Unique
@@ -26,16 +27,30 @@ def bind(grammar: Grammar, vocabulary: Vocabulary) -> BoundGrammar:
         GrammarFileError: names the domain does not have, words that are not trees, rules that never end, constraints
             that leave nothing.
     """
+    return bind_written(grammar, vocabulary, write_out(grammar, vocabulary))
+
+
+def bind_written(grammar: Grammar, vocabulary: Vocabulary, written: Sequence[PlainProduction]) -> BoundGrammar:
+    """The second half of `bind`, for whoever wants to look at the productions too."""
+    productive = productive_of(written)
+    _raise(shape_findings(productive))
+    _raise(_cycles(productive))
+    bound = _number(grammar, vocabulary, productive)
+    return _finishable(bound)
+
+
+def write_out(grammar: Grammar, vocabulary: Vocabulary) -> tuple[PlainProduction, ...]:
+    """Every production of the grammar over the vocabulary, when each rule can end with some vocabulary.
+
+    Raises:
+        GrammarFileError: names the domain does not have, rules that never end.
+    """
     if not vocabulary.leaves:
         help_ = "give the domain's vocabulary a group with an action"
         raise GrammarFileError([Diagnostic("G403", "the domain has no leaves", None, help_)])
     written = expand(grammar, vocabulary)
     _raise(_unproductive(grammar, written))
-    productive = _productive(written)
-    _raise(shape_findings(productive))
-    _raise(_cycles(productive))
-    bound = _number(grammar, vocabulary, productive)
-    return _finishable(bound)
+    return written
 
 
 def _raise(findings: Iterable[Diagnostic]) -> None:
@@ -44,43 +59,53 @@ def _raise(findings: Iterable[Diagnostic]) -> None:
         raise GrammarFileError(found)
 
 
-def _ending(productions: Sequence[PlainProduction], *, ignore_empty_sets: bool) -> set[Nonterminal]:
+def ending(productions: Sequence[PlainProduction], *, ignore_empty_sets: bool = False) -> set[Nonterminal]:
     """Nonterminals from which some row of terminals can be reached."""
-    ending: set[Nonterminal] = set()
-    if ignore_empty_sets:
-        has_own = {production.lhs for production in productions}
-        met = {symbol for p in productions for symbol in p.rhs if isinstance(symbol, Nonterminal)}
-        ending |= met - has_own
-    size = -1
-    while len(ending) > size:
-        size = len(ending)
-        for production in productions:
-            if all(_ends(symbol, ending) for symbol in production.rhs):
-                ending.add(production.lhs)
-    return ending
+    own = {production.lhs for production in productions}
+    users: dict[Nonterminal, list[int]] = {}
+    missing = []
+    found: dict[Nonterminal, None] = {}
+    for at, production in enumerate(productions):
+        parts = dict.fromkeys(symbol for symbol in production.rhs if isinstance(symbol, Nonterminal))
+        if ignore_empty_sets:
+            parts = {part: None for part in parts if part in own}
+        missing.append(len(parts))
+        for part in parts:
+            users.setdefault(part, []).append(at)
+        if not parts:
+            found[production.lhs] = None
+    queue = list(found)
+    while queue:
+        for at in users.get(queue.pop(), ()):
+            missing[at] -= 1
+            lhs = productions[at].lhs
+            if not missing[at] and lhs not in found:
+                found[lhs] = None
+                queue.append(lhs)
+    return set(found)
 
 
-def _ends(symbol: object, ending: set[Nonterminal]) -> bool:
-    return not isinstance(symbol, Nonterminal) or symbol in ending
+def _ends(symbol: object, ends: set[Nonterminal]) -> bool:
+    return not isinstance(symbol, Nonterminal) or symbol in ends
 
 
 def _unproductive(grammar: Grammar, productions: Sequence[PlainProduction]) -> list[Diagnostic]:
     """Rules that can never end, whatever leaves a domain has."""
-    ending = {nonterminal.rule for nonterminal in _ending(productions, ignore_empty_sets=True)}
+    ends = {nonterminal.rule for nonterminal in ending(productions, ignore_empty_sets=True)}
     used = {production.lhs.rule for production in productions}
     note = "every alternative uses a rule that never ends"
     help_ = 'add an alternative that ends, for example one with `ACTION` or a leaf such as "[stop]"'
     return [
         Diagnostic("G203", f"rule `{rule.name}` can never produce a finished tree", rule.span, help_, (note,))
         for rule in grammar.rules
-        if rule.name in used and rule.name not in ending
+        if rule.name in used and rule.name not in ends
     ]
 
 
-def _productive(productions: Sequence[PlainProduction]) -> tuple[PlainProduction, ...]:
+def productive_of(productions: Sequence[PlainProduction]) -> tuple[PlainProduction, ...]:
     """What is left when sets of leaves that are empty for some group are taken into account, reachable only."""
-    ending = _ending(productions, ignore_empty_sets=False)
-    kept = [p for p in productions if p.lhs in ending and all(_ends(s, ending) for s in p.rhs)]
+    ends = ending(productions)
+    kept = [p for p in productions if p.lhs in ends and all(_ends(s, ends) for s in p.rhs)]
     by_lhs: dict[Nonterminal, list[PlainProduction]] = {}
     for production in kept:
         by_lhs.setdefault(production.lhs, []).append(production)
@@ -170,10 +195,13 @@ def _blocks(productions: Sequence[PlainProduction], number: dict[object, int]) -
 
 def _finishable(bound: BoundGrammar) -> BoundGrammar:
     """Complain if no word satisfies the constraints; forget blocks that have none."""
-    needs = bound.forms.needs
+    directives: tuple[Unique | Limit, ...] = (*bound.grammar.uniques, *bound.grammar.limits)
+    span = directives[0].span if directives else None
+    try:
+        needs = bound.forms.needs
+    except EntangledError as error:
+        raise GrammarFileError([Diagnostic("G406", error.message, span, error.hint or "")]) from None
     if not needs.of(bound.start_symbol):
-        directives: tuple[Unique | Limit, ...] = (*bound.grammar.uniques, *bound.grammar.limits)
-        span = directives[0].span if directives else None
         code = "G405" if bound.grammar.limits and not bound.grammar.uniques else "G404"
         message = "the constraints leave no tree at all"
         _raise([Diagnostic(code, message, span, "loosen %unique or %limit, or give the domain more leaves")])

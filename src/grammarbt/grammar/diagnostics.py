@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
-from typing import Literal
+from pathlib import Path
+from typing import Any, Literal
 
-from attrs import frozen
+from attrs import field, frozen
 
 from grammarbt.errors import GrammarError
 
 
 @frozen
 class Source:
-    """A grammar file's name and text."""
+    """A grammar file's name and text, and the folder of its neighbours; the shipped grammars need none."""
 
     name: str
     text: str
+    folder: Path | None = field(default=None, eq=False)
 
 
 @frozen
@@ -46,6 +49,12 @@ class Span:
     def text(self) -> str:
         """The stretch itself."""
         return self.source.text[self.start : self.end]
+
+    def word(self, word: str) -> Span:
+        """Where a word first stands inside."""
+        found = re.search(rf"\b{re.escape(word)}\b", self.text)
+        at = self.start + (found.start() if found else 0)
+        return Span(self.source, at, at + len(word))
 
 
 @frozen
@@ -81,6 +90,22 @@ class Diagnostic:
         if self.help:
             lines.append(f"{margin}  = help: {self.help}")
         return "\n".join(lines)
+
+    def as_json(self) -> dict[str, Any]:
+        """For editors and scripts: the place in lines and columns from 1, the end exclusive."""
+        end = self.span and Span(self.span.source, self.span.end, self.span.end)
+        return {
+            "code": self.code,
+            "severity": self.severity,
+            "message": self.message,
+            "help": self.help,
+            "notes": list(self.notes),
+            "file": self.span and self.span.source.name,
+            "line": self.span and self.span.line,
+            "column": self.span and self.span.column,
+            "end_line": end and end.line,
+            "end_column": end and end.column,
+        }
 
     def _excerpt(self) -> list[str]:
         if self.span is None:

@@ -18,11 +18,22 @@ from grammarbt.bt.notation import Token, format_leaf, tokens
 from grammarbt.bt.vocabulary import Group, Vocabulary, actions_of, conditions_of
 from grammarbt.errors import NotationError, did_you_mean
 from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError, Span
-from grammarbt.grammar.model import START, Grammar, direct_references
+from grammarbt.grammar.model import START, Grammar
 from grammarbt.grammar.symbols import Nonterminal, PlainProduction, Symbol
-from grammarbt.grammar.syntax import Alternative, Argument, Choice, Expression, Literal, Reference, Repeat, Rule
+from grammarbt.grammar.syntax import (
+    Alternative,
+    Argument,
+    Choice,
+    Expression,
+    Literal,
+    Reference,
+    Repeat,
+    Rule,
+    direct_references,
+)
 
-MAX_PRODUCTIONS = 200_000
+MAX_PRODUCTIONS = 10_000
+MAX_SYMBOLS = 25_000
 
 
 @frozen
@@ -64,19 +75,18 @@ class _Expander:
         self.queue: deque[tuple[Nonterminal, Callable[[Nonterminal], Iterator[PlainProduction]]]] = deque()
 
     def run(self) -> Iterator[PlainProduction]:
-        count = 0
+        count, size = 0, 0
         self.rule(self.rules[START], ())
         while self.queue:
             nonterminal, produce = self.queue.popleft()
             for production in produce(nonterminal):
-                count += 1
-                if count > MAX_PRODUCTIONS:
-                    self.find(
-                        "G208",
-                        f"written out, the grammar has more than {MAX_PRODUCTIONS:,} productions",
-                        production.span,
-                        "does a template call itself with ever larger arguments?",
-                    )
+                count, size = count + 1, size + len(production.rhs)
+                if count > MAX_PRODUCTIONS or size > MAX_SYMBOLS:
+                    message = f"written out, the grammar has more than {MAX_PRODUCTIONS:,} productions"
+                    if count <= MAX_PRODUCTIONS:
+                        message = f"written out, the grammar has more than {MAX_SYMBOLS:,} symbols"
+                    help_ = "use fewer variables in one alternative, and no template that grows its own argument"
+                    self.find("G208", message, production.span, help_)
                     return
                 yield production
 
@@ -192,17 +202,20 @@ class _Expander:
             self.find("G401", f"`{name}` is neither a group of the domain nor a rule", span, help_)
         return GroupValue(name)
 
+    def set_argument(self, item: Argument, environment: Environment) -> Value:
+        """A group; one whose name is not a word stands in quotes."""
+        return self.group(item.text, item.span) if isinstance(item, Literal) else self.argument(item, environment)
+
     def leaf_set(self, item: Reference, environment: Environment) -> Nonterminal:
-        value = self.argument(item.arguments[0], environment) if item.arguments else None
+        value = self.set_argument(item.arguments[0], environment) if item.arguments else None
         if value is not None and not isinstance(value, GroupValue):
             self.find("G206", f"`{item.name}` takes a group", item.span, f"write `{item.name}{{g}}`")
             value = None
         groups = [self.groups[value.name]] if value and value.name in self.groups else list(self.groups.values())
         shown = f"{item.name}{{{value.name}}}" if value else item.name
-        leaves = dict.fromkeys(leaf for group in groups for leaf in _LEAVES[item.name](group))
 
         def produce(lhs: Nonterminal) -> Iterator[PlainProduction]:
-            for leaf in leaves:
+            for leaf in dict.fromkeys(leaf for group in groups for leaf in _LEAVES[item.name](group)):
                 yield PlainProduction(lhs, (leaf,), (), 1.0, None, item.span)
 
         return self.meet(Nonterminal(shown, "", (item.name, value)), produce)

@@ -13,8 +13,9 @@ from typing import TypeAlias
 
 from attrs import Factory, define, frozen
 
-from grammarbt.grammar.needs import ENDLESS, NOTHING, Antichain, Needs
+from grammarbt.grammar.needs import ENDLESS, Needs
 from grammarbt.grammar.table import CLOSE, Production, ProductionTable
+from grammarbt.grammar.vectors import NOTHING, Antichain
 
 Used: TypeAlias = tuple[tuple[int, ...], ...]
 

@@ -6,6 +6,7 @@ and says which terminals become final by it. Everything that counts, samples or 
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from itertools import accumulate
 from typing import TypeAlias
@@ -20,6 +21,8 @@ Word: TypeAlias = tuple[int, ...]
 """Numbers of terminals."""
 
 MAX_STATES = 400_000
+DRAWS = 32
+"""Random numbers drawn at a time; about what a tree takes."""
 
 
 @frozen(eq=False)
@@ -31,6 +34,35 @@ class Move:
     after: SententialForm
 
 
+_Leg: TypeAlias = "tuple[Derivation, Word, _Fork | None]"
+"""Moves made one after the other, what they spell, and where the next choice is; None at the end of the word."""
+
+
+@frozen(eq=False)
+class _Fork:
+    """A state with several moves; random walks go from fork to fork and look no state up on the way.
+
+    Attributes:
+        moves: what may be done.
+        total: the sum of the moves' weights.
+        bounds: the sums of the first one, two, … of them.
+        legs: what each move leads to, once it has been taken.
+    """
+
+    moves: tuple[Move, ...]
+    total: float
+    bounds: list[float]
+    legs: list[_Leg | None]
+
+    def choose(self, leftmost: Leftmost, draw: float) -> _Leg:
+        """The leg for a number from 0 to 1."""
+        at = bisect_right(self.bounds, draw * self.total)
+        leg = self.legs[at]
+        if leg is None:
+            leg = self.legs[at] = leftmost.leg(self.moves[at])
+        return leg
+
+
 class Leftmost:
     """The states of a grammar's leftmost derivations, kept as they are met."""
 
@@ -38,7 +70,7 @@ class Leftmost:
         self.grammar = grammar
         self.forms = forms
         self._moves: dict[SententialForm, tuple[Move, ...]] = {}
-        self._shares: dict[SententialForm, list[float]] = {}
+        self._forks: dict[SententialForm, _Fork] = {}
 
     def moves(self, state: SententialForm) -> tuple[Move, ...]:
         """What may be done at the state's first nonterminal; empty only when nothing is left to derive."""
@@ -46,7 +78,7 @@ class Leftmost:
         if known is None:
             if len(self._moves) >= MAX_STATES:
                 self._moves.clear()
-                self._shares.clear()
+                self._forks.clear()
             known = self._moves[state] = tuple(self._computed(state))
         return known
 
@@ -83,22 +115,34 @@ class Leftmost:
 
     def random_walk(self, state: SententialForm, rng: np.random.Generator) -> tuple[Derivation, Word]:
         """Derive a word from a state, choosing among legal moves by weight."""
-        derivation: list[int] = []
-        word: list[int] = []
-        while moves := self.moves(state):
-            move = moves[0] if len(moves) == 1 else moves[self._choose(state, moves, rng)]
-            derivation.append(move.production)
-            word.extend(move.emits)
-            state = move.after
+        leg = self._leg((), (), state)
+        derivation, word, fork = [*leg[0]], [*leg[1]], leg[2]
+        draws: list[float] = []
+        while fork is not None:
+            if not draws:
+                draws = rng.random(DRAWS).tolist()
+            derivation_part, word_part, fork = fork.choose(self, draws.pop())
+            derivation += derivation_part
+            word += word_part
         return tuple(derivation), tuple(word)
 
-    def _choose(self, state: SententialForm, moves: tuple[Move, ...], rng: np.random.Generator) -> int:
-        shares = self._shares.get(state)
-        if shares is None:
+    def leg(self, move: Move) -> _Leg:
+        """A move and the moves that follow it without alternative."""
+        return self._leg((move.production,), move.emits, move.after)
+
+    def _leg(self, derivation: Derivation, word: Word, state: SententialForm) -> _Leg:
+        while len(moves := self.moves(state)) == 1:
+            derivation += (moves[0].production,)
+            word += moves[0].emits
+            state = moves[0].after
+        return derivation, word, self._fork(state, moves) if moves else None
+
+    def _fork(self, state: SententialForm, moves: tuple[Move, ...]) -> _Fork:
+        known = self._forks.get(state)
+        if known is None:
             shares = list(accumulate(self.grammar.productions[move.production].weight for move in moves))
-            self._shares[state] = shares
-        draw = rng.random() * shares[-1]
-        return next((at for at, share in enumerate(shares) if draw < share), len(shares) - 1)
+            known = self._forks[state] = _Fork(moves, shares.pop(), shares, [None] * len(moves))
+        return known
 
     def follow(self, state: SententialForm, derivation: Derivation) -> tuple[Word, SententialForm]:
         """What a derivation, or the first part of one, makes of a state.

@@ -3,55 +3,73 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
+from itertools import islice
 from pathlib import Path
 
 from attrs import frozen
 
-from grammarbt.errors import GrammarError, did_you_mean
+from grammarbt.errors import did_you_mean
 from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError, Source, Span
+from grammarbt.grammar.imports import read_source, with_imports
 from grammarbt.grammar.reader import read
 from grammarbt.grammar.syntax import (
-    Alternative,
-    Choice,
     Declare,
-    Expression,
     ForAll,
     Item,
     Limit,
-    Literal,
     Reference,
-    Repeat,
     Rule,
     Unique,
+    references,
 )
 
 START = "start"
 KINDS = ("ACTION", "CONDITION")
+MAX_FINDINGS = 30
+MAX_NAMES = 300
 
 
-@frozen
+@frozen(slots=False)  # slots=False: cached_property keeps its value in the instance's dict
 class Grammar:
     """The rules and directives of a `.grammar` file.
 
     Attributes:
         source: the file.
         rules: in the order written.
-        terminals: declared kinds of leaves.
-        variables: names that range over the domain's groups.
+        declares, foralls: directives that declare kinds of leaves and variables.
         uniques, limits: the constraints.
     """
 
     source: Source
     rules: tuple[Rule, ...]
-    terminals: tuple[str, ...]
-    variables: tuple[str, ...]
+    declares: tuple[Declare, ...]
+    foralls: tuple[ForAll, ...]
     uniques: tuple[Unique, ...]
     limits: tuple[Limit, ...]
 
-    @property
+    @cached_property
+    def terminals(self) -> tuple[str, ...]:
+        """Declared kinds of leaves."""
+        return tuple(dict.fromkeys(name for item in self.declares for name in item.names))
+
+    @cached_property
+    def variables(self) -> tuple[str, ...]:
+        """Names that range over the domain's groups."""
+        return tuple(dict.fromkeys(name for item in self.foralls for name in item.variables))
+
+    @cached_property
     def rule_names(self) -> tuple[str, ...]:
         """Every rule's name."""
-        return tuple(rule.name for rule in self.rules)
+        return tuple(self.by_name)
+
+    @cached_property
+    def by_name(self) -> dict[str, Rule]:
+        """Each rule, the first of those that share a name."""
+        found: dict[str, Rule] = {}
+        for rule in self.rules:
+            found.setdefault(rule.name, rule)
+        return found
 
 
 def load_grammar(source: Source) -> Grammar:
@@ -60,8 +78,8 @@ def load_grammar(source: Source) -> Grammar:
     Raises:
         GrammarFileError: with every finding, not only the first.
     """
-    grammar = _collect(source, read(source))
-    findings = tuple(_findings(grammar))
+    grammar = _collect(source, with_imports(source, read(source)))
+    findings = tuple(islice(_findings(grammar), MAX_FINDINGS))
     if findings:
         raise GrammarFileError(findings)
     return grammar
@@ -77,56 +95,12 @@ def read_grammar(path: Path) -> Grammar:
     return load_grammar(read_source(path))
 
 
-def read_source(path: Path) -> Source:
-    """The text of a grammar file."""
-    try:
-        return Source(str(path), path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
-        raise GrammarError(
-            f"cannot read the grammar {str(path)!r}: {reason}", "give the path of a .grammar file"
-        ) from None
-
-
-def direct_references(alternative: Alternative) -> Iterator[tuple[Reference, bool]]:
-    """References of an alternative outside nested parentheses; the flag says whether it is a template argument."""
-    for item in alternative.items:
-        yield from _direct(item)
-
-
-def _direct(item: Expression) -> Iterator[tuple[Reference, bool]]:
-    if isinstance(item, Repeat):
-        yield from _direct(item.item)
-    elif isinstance(item, Reference):
-        yield item, False
-        yield from _argument_references(item)
-
-
-def _argument_references(reference: Reference) -> Iterator[tuple[Reference, bool]]:
-    for argument in reference.arguments:
-        if isinstance(argument, Reference):
-            yield argument, True
-            yield from _argument_references(argument)
-
-
-def all_references(alternatives: tuple[Alternative, ...]) -> Iterator[tuple[Reference, bool]]:
-    """Every reference, also inside parentheses."""
-    for alternative in alternatives:
-        yield from direct_references(alternative)
-        for item in alternative.items:
-            inner = item.item if isinstance(item, Repeat) else item
-            while isinstance(inner, Repeat):
-                inner = inner.item
-            if isinstance(inner, Choice):
-                yield from all_references(inner.alternatives)
-
-
 def _collect(source: Source, items: tuple[Item, ...]) -> Grammar:
     return Grammar(
         source,
         rules=tuple(item for item in items if isinstance(item, Rule)),
-        terminals=tuple(name for item in items if isinstance(item, Declare) for name in item.names),
-        variables=tuple(name for item in items if isinstance(item, ForAll) for name in item.variables),
+        declares=tuple(item for item in items if isinstance(item, Declare)),
+        foralls=tuple(item for item in items if isinstance(item, ForAll)),
         uniques=tuple(item for item in items if isinstance(item, Unique)),
         limits=tuple(item for item in items if isinstance(item, Limit)),
     )
@@ -136,7 +110,7 @@ def _findings(grammar: Grammar) -> Iterator[Diagnostic]:
     yield from _rule_findings(grammar)
     yield from _directive_findings(grammar)
     for rule in grammar.rules:
-        for reference, is_argument in all_references(rule.alternatives):
+        for reference, is_argument in references(rule.alternatives):
             yield from _reference_findings(grammar, rule, reference, is_argument=is_argument)
 
 
@@ -162,12 +136,9 @@ def _directive_findings(grammar: Grammar) -> Iterator[Diagnostic]:
     for directive in directives:
         if directive.scope not in names:
             yield Diagnostic(
-                "G201", f"undefined rule `{directive.scope}`", directive.span, did_you_mean(directive.scope, names)
+                "G201", f"undefined rule `{directive.scope}`", directive.span, _near(directive.scope, names)
             )
-    for terminal in grammar.terminals:
-        if terminal not in KINDS:
-            span = _word_span(grammar.source, terminal)
-            yield Diagnostic("G214", f"unknown kind of leaf `{terminal}`", span, did_you_mean(terminal, KINDS))
+    yield from _declaration_findings(grammar)
     for unique in grammar.uniques:
         known = (*grammar.terminals, *grammar.variables)
         for name in unique.names:
@@ -180,9 +151,25 @@ def _directive_findings(grammar: Grammar) -> Iterator[Diagnostic]:
             yield Diagnostic("G212", f"there is no limit on `{limit.kind}`", limit.span, help_)
 
 
-def _word_span(source: Source, word: str) -> Span:
-    at = max(source.text.find(word), 0)
-    return Span(source, at, at + len(word))
+def _near(name: str, names: tuple[str, ...]) -> str:
+    """Similar names; not looked for among very many, as that takes long."""
+    return did_you_mean(name, names) if len(names) <= MAX_NAMES else "add the rule, or correct its name"
+
+
+def _declaration_findings(grammar: Grammar) -> Iterator[Diagnostic]:
+    for declare in grammar.declares:
+        for name in declare.names:
+            if name not in KINDS:
+                span = declare.span.word(name)
+                yield Diagnostic("G214", f"unknown kind of leaf `{name}`", span, did_you_mean(name, KINDS))
+    for forall in grammar.foralls:
+        if forall.domain != "GROUP":
+            message = f"a variable ranges over GROUP, not over `{forall.domain}`"
+            yield Diagnostic("G216", message, forall.span.word(forall.domain), "write `in GROUP`")
+        for name in forall.variables:
+            if name in grammar.rule_names:
+                message = f"`{name}` is both a variable and a rule"
+                yield Diagnostic("G213", message, forall.span.word(name), "rename one of them")
 
 
 def _reference_findings(
@@ -190,14 +177,16 @@ def _reference_findings(
 ) -> Iterator[Diagnostic]:
     name, span = reference.name, reference.span
     if name in rule.parameters or name in grammar.variables:
+        if reference.arguments:
+            yield Diagnostic("G206", f"`{name}` takes no parameters", span, f"write `{name}`")
         return
     if name[0].isupper():
         yield from _terminal_findings(grammar, reference)
         return
-    target = next((other for other in grammar.rules if other.name == name), None)
+    target = grammar.by_name.get(name)
     if target is None:
-        if not is_argument:  # an argument may name a group, which only a domain knows
-            help_ = did_you_mean(name, grammar.rule_names)
+        if not is_argument or reference.arguments:  # an argument may name a group, which only a domain knows
+            help_ = _near(name, grammar.rule_names)
             yield Diagnostic("G201", f"undefined rule `{name}`", span, help_)
     elif len(target.parameters) != len(reference.arguments):
         message = f"rule `{name}` takes {len(target.parameters)} parameters, not {len(reference.arguments)}"
@@ -210,6 +199,6 @@ def _terminal_findings(grammar: Grammar, reference: Reference) -> Iterator[Diagn
         known = grammar.terminals or KINDS
         help_ = f"add `%declare {reference.name}`" if reference.name in KINDS else did_you_mean(reference.name, known)
         yield Diagnostic("G209", f"terminal `{reference.name}` is not declared", reference.span, help_)
-    elif len(reference.arguments) > 1 or any(isinstance(part, Literal) for part in reference.arguments):
+    elif len(reference.arguments) > 1:
         help_ = f"write `{reference.name}` or `{reference.name}{{g}}`"
         yield Diagnostic("G206", f"terminal `{reference.name}` takes one group at most", reference.span, help_)

@@ -8,36 +8,48 @@ small even when there are many leaves.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import TypeAlias
+from collections import deque
+from collections.abc import Callable, Iterable, Sequence
+from operator import eq
 
+from grammarbt.errors import GrammarError
 from grammarbt.grammar.table import Production, ProductionTable
+from grammarbt.grammar.vectors import NOTHING, Antichain, Vector, add, minimal, undercut
 
-Vector: TypeAlias = tuple[tuple[int, int], ...]
-"""(dimension, amount) pairs in order of dimension; amounts are above 0."""
-
-Antichain: TypeAlias = tuple[Vector, ...]
-NOTHING: Antichain = ((),)
 ENDLESS = 1_000_000
-MAX_VECTORS = 5_000
+MAX_VECTORS = 2_500
+MAX_STEPS = 50_000
+"""How many sums may be tried for one question; all nonterminals' needs together may take five times as many."""
+
+
+class EntangledError(GrammarError):
+    """The constraints depend on each other in more ways than can be looked through."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "the constraints are too entangled to tell what can be finished",
+            "let %unique count less, give its scope fewer rules, or bind to fewer groups",
+        )
 
 
 class Needs:
     """Minimal needs of every nonterminal at every remaining depth, and sums of them."""
 
-    def __init__(self, grammar: ProductionTable) -> None:
+    def __init__(self, grammar: ProductionTable, *, unlimited: bool = False) -> None:
         self.grammar = grammar
-        self.capacity = [dimension.capacity for dimension in grammar.costs.dimensions]
+        self.capacity = [ENDLESS if unlimited else dimension.capacity for dimension in grammar.costs.dimensions]
         self.constraint_of = [dimension.constraint for dimension in grammar.costs.dimensions]
         self.production_cost = [self._cost(production) for production in grammar.productions]
         self.table: dict[tuple[int, int], Antichain] = {}
+        self.steps = 0
+        self.users = _users(grammar.productions)
         limits = [grammar.costs.constraints[at].most for at in grammar.depth_constraints]
-        for remaining in [*range(max(limits, default=-1) + 1), ENDLESS]:
-            self._fill(remaining)
+        self.deepest = self._fill_depths(max(limits, default=-1))
+        self._fill(ENDLESS)
 
     def of(self, nonterminal: int, remaining: int = ENDLESS) -> Antichain:
         """What a derivation of the nonterminal needs at least of the scopes around it; empty if it has none."""
-        return self.table.get((nonterminal, remaining), ())
+        return self.table.get((nonterminal, remaining if remaining == ENDLESS else min(remaining, self.deepest)), ())
 
     def inside(self, nonterminal: int, remaining: int) -> int:
         """The depth that remains within a use of the nonterminal, when `remaining` remains around it."""
@@ -46,6 +58,8 @@ class Needs:
         return min([remaining, *own])
 
     def _cost(self, production: Production) -> Vector:
+        if not any(production.use):
+            return ()
         found = []
         for at, dimension in enumerate(self.grammar.costs.dimensions):
             use = production.use[dimension.constraint]
@@ -54,40 +68,79 @@ class Needs:
                 found.append((at, amount))
         return tuple(found)
 
+    def _fill_depths(self, limit: int) -> int:
+        """Fill depth after depth until more depth makes no difference; gives the last depth filled."""
+        reach = 1 + max((level for production in self.grammar.productions for level in production.levels), default=0)
+        nonterminals = tuple(self.grammar.by_lhs)
+        same = 0
+        for remaining in range(limit + 1):
+            self.deepest = remaining
+            self._fill(remaining)
+            before = (self.table.get((symbol, remaining - 1)) for symbol in nonterminals)
+            after = (self.table.get((symbol, remaining)) for symbol in nonterminals)
+            same = same + 1 if all(map(eq, before, after)) and remaining > reach else 0
+            if same > reach:
+                return remaining
+        return limit
+
     def _fill(self, remaining: int) -> None:
-        """Fixpoint over all productions for one remaining depth."""
-        users: dict[int, list[Production]] = {}
-        for production in self.grammar.productions:
-            for symbol in dict.fromkeys(production.rhs):
-                users.setdefault(symbol, []).append(production)
-        queue = list(self.grammar.productions)
+        """Fixpoint over all productions for one remaining depth; those met last use the fewest others."""
+        queue = deque(reversed(self.grammar.productions))
         waiting = {production.number for production in queue}
         while queue:
-            production = queue.pop()
+            production = queue.popleft()
             waiting.discard(production.number)
             if self._improve(production, remaining):
-                for user in users.get(production.lhs, []):
+                for user in self.users.get(production.lhs, ()):
                     if user.number not in waiting:
                         waiting.add(user.number)
                         queue.append(user)
+            if self.steps > 5 * MAX_STEPS:
+                raise EntangledError
 
     def _improve(self, production: Production, remaining: int) -> bool:
         key = (production.lhs, remaining)
         old = self.table.get(key, ())
         if old == NOTHING:
             return False
-        new = minimal((*old, *self._production_needs(production, remaining)))
+        more = self._production_needs(production, remaining, old)
+        new = minimal((*old, *more)) if more else old
         if new == old:
             return False
         self.table[key] = new
         return True
 
-    def _production_needs(self, production: Production, remaining: int) -> Antichain:
+    def _production_needs(self, production: Production, remaining: int, known: Antichain) -> Antichain:
         parts = self.parts(production, remaining)
         around = self.grammar.encloses_of(production.lhs)
         if parts is None or self.clashes(production, around):
             return ()
-        return self.total(parts, self.production_cost[production.number], {}, around)
+        return self.total(parts, self.production_cost[production.number], {}, around, known)
+
+    def allows(self, production: Production) -> bool:
+        """Whether the production fits into fresh scopes."""
+        around = self.grammar.encloses_of(production.lhs)
+        parts = None if self.clashes(production, around) else self.parts(production, ENDLESS)
+        return parts is not None and bool(self.total(parts, self.production_cost[production.number], {}, ()))
+
+    def demands(self, production: Production) -> Antichain:
+        """The production's minimal needs, those of scopes that its left-hand side opens included; empty if unusable."""
+        parts = self.parts(production, ENDLESS)
+        seen = {*self.grammar.encloses_of(production.lhs), *self.grammar.opens_of(production.lhs)}
+        if parts is None or self.clashes(production, seen):
+            return ()
+        return self.total(parts, self.production_cost[production.number], {}, seen)
+
+    def certain(self, production: Production, position: int) -> frozenset[int]:
+        """The constraints that the production uses something of, whatever the symbol at a position becomes."""
+        spent = {self.constraint_of[dimension] for dimension, _ in self.production_cost[production.number]}
+        if production.levels[position]:
+            spent.update(self.grammar.depth_constraints)
+        for at, symbol in enumerate(production.rhs):
+            if at != position and self.grammar.is_nonterminal(symbol) and (needs := self.of(symbol)):
+                sets = [{self.constraint_of[dimension] for dimension, _ in vector} for vector in needs]
+                spent |= set.intersection(*sets)
+        return frozenset(spent)
 
     def clashes(self, production: Production, around: Iterable[int]) -> bool:
         """Whether the production breaks, by itself, a constraint on a scope that is or may be open."""
@@ -109,10 +162,21 @@ class Needs:
                 return None
         return found
 
-    def total(self, parts: Sequence[Antichain], base: Vector, left: dict[int, int], around: Iterable[int]) -> Antichain:
+    def total(
+        self,
+        parts: Sequence[Antichain],
+        base: Vector,
+        left: dict[int, int],
+        around: Iterable[int],
+        known: Antichain = (),
+    ) -> Antichain:
         """Minimal sums of one vector per part plus `base`, within what is left, seen from the scopes around.
 
-        `left` overrides a dimension's capacity. When nothing is seen from around, the first sum found will do.
+        `left` overrides a dimension's capacity; sums that a `known` vector undercuts are left out. When nothing is
+        seen from around, the first sum found will do.
+
+        Raises:
+            EntangledError: there are too many sums.
         """
         seen = frozenset(around)
         if not self._fits(base, left):
@@ -123,11 +187,21 @@ class Needs:
             shown = self._project(base, seen)
             return (shown,) if self._some(sorted(parts, key=len), base, left) else ()
         sums: Antichain = (base,)
-        for part in parts:
-            sums = minimal(added for one in sums for other in part if self._fits(added := _add(one, other), left))[
-                :MAX_VECTORS
-            ]
+        for part in sorted(parts, key=len):
+            sums = self._sums(sums, part, left, lambda one: undercut(self._project(one, seen), known))
         return minimal(self._project(vector, seen) for vector in sums)
+
+    def _sums(
+        self, sums: Antichain, part: Antichain, left: dict[int, int], superfluous: Callable[[Vector], bool]
+    ) -> Antichain:
+        self.steps += len(sums) * len(part)
+        if len(sums) * len(part) > MAX_STEPS:
+            raise EntangledError
+        fitting = (added for one in sums for other in part if self._fits(added := add(one, other), left))
+        found = minimal(added for added in fitting if not superfluous(added))
+        if len(found) > MAX_VECTORS:
+            raise EntangledError
+        return found
 
     def _some(self, parts: Sequence[Antichain], base: Vector, left: dict[int, int]) -> bool:
         """Whether some sum fits: depth-first, remembering what failed."""
@@ -136,12 +210,16 @@ class Needs:
         while stack:
             at, vector = stack.pop()
             if at == len(parts):
+                self.steps += len(failed)
                 return True
+            if len(failed) > MAX_STEPS:
+                raise EntangledError
             for other in reversed(parts[at]):
-                step = (at + 1, _add(vector, other))
+                step = (at + 1, add(vector, other))
                 if step not in failed and self._fits(step[1], left):
                     failed.add(step)
                     stack.append(step)
+        self.steps += len(failed)
         return False
 
     def _fits(self, vector: Vector, left: dict[int, int]) -> bool:
@@ -156,24 +234,9 @@ def depth_below(remaining: int, level: int) -> int:
     return remaining if remaining == ENDLESS else max(remaining - level, 0)
 
 
-def minimal(vectors: Iterable[Vector]) -> Antichain:
-    """The vectors that no other one undercuts, in a fixed order."""
-    found: list[Vector] = []
-    for vector in sorted(set(vectors), key=lambda v: (sum(amount for _, amount in v), v)):
-        if not any(_at_most(other, vector) for other in found):
-            found.append(vector)
-    return tuple(found)
-
-
-def _at_most(one: Vector, other: Vector) -> bool:
-    amounts = dict(other)
-    return all(amount <= amounts.get(dimension, 0) for dimension, amount in one)
-
-
-def _add(one: Vector, other: Vector) -> Vector:
-    if not one or not other:
-        return one or other
-    amounts = dict(one)
-    for dimension, amount in other:
-        amounts[dimension] = amounts.get(dimension, 0) + amount
-    return tuple(sorted(amounts.items()))
+def _users(productions: Sequence[Production]) -> dict[int, list[Production]]:
+    found: dict[int, list[Production]] = {}
+    for production in productions:
+        for symbol in dict.fromkeys(production.rhs):
+            found.setdefault(symbol, []).append(production)
+    return found

@@ -26,9 +26,12 @@ from grammarbt.grammar.syntax import (
     Unique,
 )
 
-MAX_CHARACTERS = 1_000_000
+MAX_CHARACTERS = 200_000
+MAX_TOKENS = 15_000
 MAX_NESTING = 40
 MAX_REPEAT = 1_000
+
+_WORD_OR_SIGN = r'"(?:\\.|[^"\\\n])*"|//[^\n]*|([(\[{])|([)\]}])|\w+|[^\w\s]'
 
 _NAMES = {
     "_OR": "'|'", "_CLOSE": "')'", "_CLOSE_OPTIONAL": "']'", "_NL": "a new line", "COLON": "':'", "LPAR": "'('",
@@ -66,7 +69,10 @@ def _check_size(source: Source) -> None:
         message = f"the file has {len(source.text):,} characters; a grammar has at most {MAX_CHARACTERS:,}"
         raise GrammarFileError([Diagnostic("G102", message, None, "split it, and use templates for what repeats")])
     level = 0
-    for match in re.finditer(r'"(?:\\.|[^"\\\n])*"|//[^\n]*|([(\[{])|([)\]}])', source.text):
+    for number, match in enumerate(re.finditer(_WORD_OR_SIGN, source.text)):
+        if number == MAX_TOKENS:
+            message, help_ = f"the file has more than {MAX_TOKENS:,} words and signs", "use templates for what repeats"
+            raise GrammarFileError([Diagnostic("G102", message, Span(source, match.start(), match.end()), help_)])
         level += bool(match.group(1)) - bool(match.group(2))
         if level > MAX_NESTING:
             span = Span(source, match.start(), match.end())

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
-from grammarbt.bt.model import MAX_DEPTH
+import networkx as nx
+
 from grammarbt.bt.notation import BracketToken, OperatorToken
 from grammarbt.grammar.diagnostics import Diagnostic
 from grammarbt.grammar.symbols import Nonterminal, PlainProduction, Symbol
@@ -89,23 +90,47 @@ def _bracket_findings(production: PlainProduction, signs: dict[Nonterminal, froz
 
 
 def _arities(rows: Sequence[PlainProduction], signs: dict[Nonterminal, frozenset[str]]) -> dict[Nonterminal, Arity]:
-    """Least and most trees in a row; nonterminals that never end are missing. The most is widened to MANY."""
+    """Least and most trees in a row, rules that others are made of first; nonterminals that never end are missing."""
+    own: dict[Nonterminal, list[PlainProduction]] = {}
+    for production in rows:
+        own.setdefault(production.lhs, []).append(production)
+    graph: nx.DiGraph[Nonterminal] = nx.DiGraph()
+    graph.add_nodes_from(own)
+    for production in rows:
+        for symbol in _outside(production):
+            if isinstance(symbol, Nonterminal) and symbol not in signs:
+                graph.add_edge(production.lhs, symbol)
     arities: dict[Nonterminal, Arity] = {}
-    for round_ in range(len(rows) + MAX_DEPTH):
-        changed = False
-        for production in rows:
-            own = _row(production.rhs, signs, arities)
-            if own is None:
-                continue
-            old = arities.get(production.lhs)
-            new = own if old is None else (min(old[0], own[0]), max(old[1], own[1]))
-            if old and new[1] > old[1] and round_ > len(arities) + 2:
-                new = (new[0], MANY)
-            changed |= new != old
-            arities[production.lhs] = new
-        if not changed:
-            break
+    for component in nx.strongly_connected_components(graph):  # in reverse topological order
+        _settle([production for lhs in component for production in own.get(lhs, ())], signs, arities)
     return arities
+
+
+def _settle(
+    productions: Sequence[PlainProduction],
+    signs: dict[Nonterminal, frozenset[str]],
+    arities: dict[Nonterminal, Arity],
+) -> None:
+    """Fixpoint over rules that are made of each other; what still grows after a round is without bound."""
+    changed, first = True, True
+    while changed:
+        changed = False
+        for production in productions:
+            row = _row(production.rhs, signs, arities)
+            if row is None:
+                continue
+            old = arities.get(production.lhs, row)
+            most = max(old[1], row[1])
+            new = (min(old[0], row[0]), most if first or most == old[1] else MANY)
+            changed |= arities.get(production.lhs) != new
+            arities[production.lhs] = new
+        first = first and any(production.lhs not in arities for production in productions)
+
+
+def _outside(production: PlainProduction) -> list[Symbol]:
+    """The symbols that stand in no parentheses of the production's own."""
+    pairs = zip(production.rhs, levels(production), strict=True)
+    return [symbol for symbol, level in pairs if not level and not isinstance(symbol, BracketToken)]
 
 
 def _row(
@@ -116,12 +141,13 @@ def _row(
         if isinstance(symbol, BracketToken):
             level += 1 if symbol.sign == "(" else -1
             continue
-        if isinstance(symbol, Nonterminal) and symbol not in signs and symbol not in arities:
-            return None
         if level:
             continue
-        plain = not isinstance(symbol, Nonterminal) or symbol in signs
-        own = (1, 1) if plain else arities[symbol]  # type: ignore[index]  # plain says it is a nonterminal
+        own: Arity | None = (1, 1)
+        if isinstance(symbol, Nonterminal) and symbol not in signs:
+            own = arities.get(symbol)
+        if own is None:
+            return None
         least, most = least + own[0], min(most + own[1], MANY)
     return least, most
 

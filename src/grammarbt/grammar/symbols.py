@@ -10,7 +10,7 @@ from grammarbt.bt.notation import Token
 from grammarbt.grammar.diagnostics import Span
 
 
-@frozen
+@frozen(cache_hash=True)
 class Nonterminal:
     """A rule with its arguments filled in, a set of leaves, or a part of a rule in parentheses.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TypeAlias
 
 from attrs import field, frozen
@@ -116,3 +117,54 @@ class Import:
 
 
 Item: TypeAlias = Rule | Declare | ForAll | Unique | Limit | Import
+
+
+def direct_references(alternative: Alternative) -> Iterator[tuple[Reference, bool]]:
+    """References of an alternative outside nested parentheses; the flag says whether it is a template argument."""
+    for item in alternative.items:
+        inner = unrepeated(item)
+        if isinstance(inner, Reference):
+            yield inner, False
+            yield from _argument_references(inner)
+
+
+def references(alternatives: tuple[Alternative, ...]) -> Iterator[tuple[Reference, bool]]:
+    """Every reference, also inside parentheses."""
+    for alternative in alternatives:
+        yield from direct_references(alternative)
+        for item in alternative.items:
+            inner = unrepeated(item)
+            if isinstance(inner, Choice):
+                yield from references(inner.alternatives)
+
+
+def literals(alternatives: tuple[Alternative, ...]) -> Iterator[Literal]:
+    """Every string, also inside parentheses and in template arguments."""
+    for alternative in alternatives:
+        for item in map(unrepeated, alternative.items):
+            if isinstance(item, Choice):
+                yield from literals(item.alternatives)
+            else:
+                yield from _argument_literals(item)
+
+
+def unrepeated(item: Expression) -> Reference | Literal | Choice:
+    """What is repeated, or the expression itself."""
+    while isinstance(item, Repeat):
+        item = item.item
+    return item
+
+
+def _argument_references(reference: Reference) -> Iterator[tuple[Reference, bool]]:
+    for argument in reference.arguments:
+        if isinstance(argument, Reference):
+            yield argument, True
+            yield from _argument_references(argument)
+
+
+def _argument_literals(item: Argument) -> Iterator[Literal]:
+    if isinstance(item, Literal):
+        yield item
+    else:
+        for argument in item.arguments:
+            yield from _argument_literals(argument)

@@ -70,6 +70,7 @@ class PluginHost:
         warn: told one line for each plugin that is set aside.
 
     Attributes:
+        options: as given.
         plugins: the core first, then all others by name, whatever their status.
 
     Raises:
@@ -78,7 +79,7 @@ class PluginHost:
     """
 
     def __init__(self, options: PluginOptions, warn: Callable[[str], None]) -> None:
-        self._options = options
+        self.options = options
         self._warn = warn
         self._hooks: dict[str, pluggy.HookRelay] = {}
         self.plugins = without_clashes([self._core(), *self._announced()])
@@ -102,15 +103,15 @@ class PluginHost:
         by_name: dict[str, list[Announcement]] = defaultdict(list)
         for announcement in announcements():
             by_name[announcement.name].append(announcement)
-        if not self._options.disables_all:
-            for name in self._options.disabled:
+        if not self.options.disables_all:
+            for name in self.options.disabled:
                 if name not in by_name:
                     raise UnknownNameError("plugin", name, by_name)
         return [self._loaded(announcement, namesakes) for namesakes in by_name.values() for announcement in namesakes]
 
     def _loaded(self, announcement: Announcement, namesakes: Sequence[Announcement]) -> Plugin:
         plugin = Plugin(announcement.name, announcement.distribution, announcement.version)
-        if self._options.disables_all or plugin.name in self._options.disabled:
+        if self.options.disables_all or plugin.name in self.options.disabled:
             return evolve(plugin, status="disabled")
         try:
             _check_unique(announcement, namesakes)
@@ -127,7 +128,7 @@ class PluginHost:
 
     def _report_broken(self) -> None:
         broken = [plugin for plugin in self.plugins if plugin.status == "set aside"]
-        if broken and self._options.strict:
+        if broken and self.options.strict:
             reasons = "; ".join(f"{plugin} cannot be used: {plugin.error}" for plugin in broken)
             raise PluginError(reasons, f"repair or uninstall it, or leave it out with --no-plugin {broken[0].name}")
         for plugin in broken:

@@ -18,6 +18,8 @@ from grammarbt.plugins.resolve import is_file_reference, load, load_from_file, o
 from grammarbt.plugins.specs import DomainSpec, ExecutorSpec, FormatSpec, GrammarSpec, SearcherSpec
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from grammarbt.domain import Domain
     from grammarbt.grammar.diagnostics import Source
     from grammarbt.plugins.host import PluginHost
@@ -98,6 +100,16 @@ class Registry:
         """
         return cast("Searcher", self._make("searcher", self.searcher(name), settings, context))
 
+    def make_executor(self, name: str, workers: int, initializer: Callable[[], object], settings: Settings) -> Executor:
+        """An executor by name; `initializer` is called in each worker process before anything else.
+
+        Raises:
+            UnknownNameError: nothing is called so.
+            ParameterError: a setting is wrong, or the executor cannot have so many workers.
+            PluginError: the plugin breaks while making it.
+        """
+        return cast("Executor", self._make("executor", self.executor(name), settings, workers, initializer))
+
     def find_grammar(self, name_or_path: str) -> Source:
         """A grammar's text, by the name of one that a plugin or grammarbt ships, or by its path.
 
@@ -121,7 +133,9 @@ class Registry:
         specs = (spec for plugin in self.host.plugins for spec in plugin.provides[kind])
         return {spec.name: spec for spec in specs if isinstance(spec, spec_type)}
 
-    def _make(self, kind: str, spec: DomainSpec | SearcherSpec, settings: Settings, *arguments: object) -> object:
+    def _make(
+        self, kind: str, spec: DomainSpec | SearcherSpec | ExecutorSpec, settings: Settings, *arguments: object
+    ) -> object:
         owner = self._owner(spec)
         chosen: object = parameters.build(self.parameters_of(spec), settings, kind)
         factory = cast("Callable[..., object]", load(spec.factory, owner))

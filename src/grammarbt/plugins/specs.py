@@ -65,7 +65,8 @@ class ExecutorSpec:
 
     Attributes:
         name: what users type.
-        factory: dotted path, called with `workers` and the parameters; gives a `concurrent.futures.Executor`.
+        factory: dotted path, called with the number of workers, an initializer to call once in each worker process,
+            and the parameters; gives a `concurrent.futures.Executor`.
         parameters: dotted path of the attrs class of its parameters.
         help: one sentence.
     """

@@ -81,7 +81,7 @@ class Ablator:
 
     def _reference_costs(self, reference: BehaviorTree) -> Mapping[str | None, float]:
         """What each group that matters to the reference is worth there."""
-        least = _MATTERS * abs(float(self._returns(reference).mean()))
+        least = _MATTERS * abs(score_of(self._returns(reference)).mean)
         return {group: cost for group, cost in self._group_costs(reference).items() if cost >= least}
 
     def _group_costs(self, tree: BehaviorTree) -> dict[str | None, float]:

@@ -13,10 +13,13 @@ from grammarbt.plugins.events import RunFinished, RunStarted, TrialFinished
 from grammarbt.run.ablate import Ablator
 from grammarbt.run.evaluate import Evaluator, Trial
 from grammarbt.run.folder import RunFolder, create_folder
+from grammarbt.run.journal import Journal
 from grammarbt.run.loop import AskTellLoop, guarded
 from grammarbt.run.record import Recorder
+from grammarbt.run.replay import Replay
 from grammarbt.run.score import Score, Validator
 from grammarbt.run.select import MAX_CANDIDATES, SuccessiveHalving
+from grammarbt.run.simulator import make_simulator
 
 if TYPE_CHECKING:
     from grammarbt.bt import BehaviorTree
@@ -51,6 +54,7 @@ class Result:
     ratio: float | None
     complete: bool | None
     stopped: str
+    validation: int
 
 
 def execute(setup: Setup, watcher: Watcher) -> Result:
@@ -61,16 +65,28 @@ def execute(setup: Setup, watcher: Watcher) -> Result:
         KeyboardInterrupt: the user stopped it; the journal is whole up to the last batch, and the best tree saved.
     """
     folder = create_folder(setup.spec, setup.resolved)
+    return go_on(setup, folder, Journal.open(folder.journal), Replay(), watcher)
+
+
+def go_on(setup: Setup, folder: RunFolder, journal: Journal, replay: Replay, watcher: Watcher) -> Result:
+    """Run in a folder, from where its journal ends; closes the journal.
+
+    Raises:
+        RunError: what is in the journal does not happen again.
+        GrammarBTError: as `execute`.
+        KeyboardInterrupt: as `execute`.
+    """
     watcher.folder(folder.path)
-    with Recorder(folder) as recorder:
-        return _Run(setup, folder, recorder, watcher).run()
+    with Recorder(folder, journal) as recorder, setup.executor:
+        return _Run(setup, folder, recorder, replay, watcher).run()
 
 
 class _Run:
-    def __init__(self, setup: Setup, folder: RunFolder, recorder: Recorder, watcher: Watcher) -> None:
+    def __init__(self, setup: Setup, folder: RunFolder, recorder: Recorder, replay: Replay, watcher: Watcher) -> None:
         self.setup, self.spec = setup, setup.spec
         self.folder, self.recorder, self.watcher = folder, recorder, watcher
-        self.evaluator = Evaluator(setup.domain, self.spec.seed)
+        self.simulator = make_simulator(setup.domain, setup.executor, self.spec.workers)
+        self.evaluator = Evaluator(setup.domain, self.spec.seed, replay, self.simulator)
         self.loop = AskTellLoop(setup.searcher, self.evaluator, self.spec, self.record_batch)
 
     def run(self) -> Result:
@@ -145,7 +161,7 @@ class _Run:
         seconds = self.recorder.seconds
         references = self.setup.domain.references
         self.watcher.phase("validating", self.spec.validation * (1 + bool(references)))
-        validator = Validator(self.setup.domain, self.spec.seed, self.watcher.advance)
+        validator = Validator(self.setup.domain, self.spec.seed, self.watcher.advance, self.simulator)
         score = self.validated(validator, "best", best)
         named, ratio, complete = None, None, None
         if references:
@@ -157,7 +173,7 @@ class _Run:
         self.recorder.event(event="finished", tree=tree, trials=self.loop.trials, episodes=episodes, complete=complete)
         return Result(
             str(self.folder.path), tree, score.mean, score.stderr, episodes, self.loop.trials, seconds,
-            named, ratio, complete, stopped,
+            named, ratio, complete, stopped, self.spec.validation,
         )  # fmt: skip
 
     def validated(self, validator: Validator, name: str, tree: BehaviorTree) -> Score:
@@ -167,5 +183,5 @@ class _Run:
 
     def complete(self, best: BehaviorTree) -> bool | None:
         self.watcher.phase("ablating", 0)
-        validator = Validator(self.setup.domain, self.spec.seed, self.watcher.advance)
+        validator = Validator(self.setup.domain, self.spec.seed, self.watcher.advance, self.simulator)
         return Ablator(validator, min(self.spec.validation, _ABLATION_EPISODES)).ablate(best).complete

@@ -6,7 +6,8 @@ import json
 import re
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
+from zlib import crc32
 
 from attrs import frozen
 
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
     from grammarbt.run.spec import RunSpec
 
 RUNS = Path("runs")
+
+Resolved: TypeAlias = "Mapping[str, object]"
+"""What `run.json` says."""
 
 
 @frozen
@@ -54,13 +58,34 @@ class RunFolder:
         return self.path / "best.tree"
 
     def save_best(self, tree: BehaviorTree) -> None:
-        """Replace the best tree; whoever reads meanwhile sees the old one or the new one, whole."""
-        fresh = self.best.with_suffix(".new")
-        fresh.write_text(format_tree(tree) + "\n", encoding="utf-8")
-        fresh.replace(self.best)
+        """Replace the best tree."""
+        _replace(self.best, format_tree(tree) + "\n")
+
+    def save_resolved(self, resolved: Resolved) -> None:
+        """Replace `run.json`, whose last entry says whether the others are as they were written."""
+        _replace(self.resolved, json.dumps(_sealed(resolved), ensure_ascii=False, indent=2) + "\n")
+
+    def read_resolved(self) -> Resolved:
+        """What `save_resolved` wrote.
+
+        Raises:
+            RunError: there is no run here, or its `run.json` is damaged.
+        """
+        try:
+            resolved: object = json.loads(self.resolved.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise RunError(
+                f"cannot read {str(self.resolved)!r}: {error.strerror}", "give the folder of a run"
+            ) from None
+        except (ValueError, RecursionError):
+            resolved = None
+        content = {key: value for key, value in resolved.items() if key != "crc"} if isinstance(resolved, dict) else {}
+        if not content or _sealed(content) != resolved:
+            raise RunError(f"{self.resolved} is damaged", "restore the file from a backup")
+        return content
 
 
-def create_folder(spec: RunSpec, resolved: Mapping[str, object]) -> RunFolder:
+def create_folder(spec: RunSpec, resolved: Resolved) -> RunFolder:
     """Make the folder of a new run and say in it what is run.
 
     Raises:
@@ -73,7 +98,7 @@ def create_folder(spec: RunSpec, resolved: Mapping[str, object]) -> RunFolder:
             raise RunError(f"the run folder {str(path)!r} is not empty", "choose a new one with --out")
         folder = RunFolder(path)
         folder.spec.write_text(spec.to_toml(), encoding="utf-8")
-        folder.resolved.write_text(json.dumps(resolved, ensure_ascii=False, indent=2) + "\n", encoding="utf-8")
+        folder.save_resolved(resolved)
     except OSError as error:
         raise RunError(
             f"cannot write the run folder {str(path)!r}: {error.strerror}", "choose another one with --out"
@@ -93,3 +118,18 @@ def _default_paths(spec: RunSpec) -> Iterator[Path]:
     yield RUNS / name
     for number in count(2):
         yield RUNS / f"{name}-{number}"
+
+
+def _replace(path: Path, text: str) -> None:
+    """Replace a file; whoever reads meanwhile sees the old one or the new one, whole."""
+    fresh = path.with_suffix(".new")
+    try:
+        fresh.write_text(text, encoding="utf-8")
+        fresh.replace(path)
+    except OSError as error:
+        raise RunError(f"cannot write {str(path)!r}: {error.strerror}", "free some space") from None
+
+
+def _sealed(resolved: Resolved) -> dict[str, object]:
+    crc = crc32(json.dumps(resolved, sort_keys=True).encode())
+    return {**resolved, "crc": f"{crc:08x}"}

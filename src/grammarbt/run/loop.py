@@ -92,7 +92,7 @@ class AskTellLoop:
     def _tell(self, trials: Sequence[Trial]) -> None:
         guarded("tell", lambda: self._searcher.tell([trial.evaluation for trial in trials]))
         failed = next((trial for trial in trials if trial.evaluation.status != "ok"), None)
-        if failed and self._failed_in_a_row >= _MAX_FAILURES:
+        if failed and self._failed_in_a_row >= _MAX_FAILURES and not self._evaluator.replay.going:
             raise RunError(
                 f"{self._failed_in_a_row} trials failed in a row, the last with: {failed.evaluation.error}",
                 "try one with 'grammarbt evaluate'",
@@ -116,10 +116,14 @@ class AskTellLoop:
             ("budget", self._evaluator.episodes >= spec.search_episodes),
             ("trials", spec.trials is not None and self.trials >= spec.trials),
             ("target", spec.target is not None and self.incumbent.mean >= spec.target),
-            ("seconds", spec.seconds is not None and time.monotonic() - self._started >= spec.seconds),
+            ("seconds", spec.seconds is not None and self._out_of_time(spec.seconds)),
             ("stalled", self._known_in_a_row >= _STALLED),
         )
         return next((reason for reason, holds in conditions if holds), None)
+
+    def _out_of_time(self, seconds: float) -> bool:
+        replay = self._evaluator.replay
+        return replay.out_of_time if replay.going else time.monotonic() - self._started >= seconds
 
 
 def guarded(method: str, call: Callable[[], Answer]) -> Answer:

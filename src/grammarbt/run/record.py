@@ -19,11 +19,23 @@ if TYPE_CHECKING:
 
 
 class Recorder:
-    """The journal and the timing of a run; use it in a `with`, which unlocks the journal at the end."""
+    """The journal and the timing of a run; use it in a `with`, which unlocks the journal at the end.
 
-    def __init__(self, folder: RunFolder) -> None:
-        self._journal = Journal.open(folder.journal)
-        self._timing = folder.timing.open("a", encoding="utf-8")
+    Args:
+        folder: where they are.
+        journal: open.
+
+    Raises:
+        RunError: the timing cannot be written.
+    """
+
+    def __init__(self, folder: RunFolder, journal: Journal) -> None:
+        self._journal = journal
+        try:
+            self._timing = folder.timing.open("a", encoding="utf-8")
+        except OSError as error:
+            journal.close()
+            raise RunError(f"cannot write {str(folder.timing)!r}: {error.strerror}", "choose another folder") from None
         self._started = time.monotonic()
         self._batches = 0
 
@@ -43,7 +55,8 @@ class Recorder:
         """What the searcher asked for, and what came of it."""
         self._batches += 1
         self._journal.append(trial_event("trial", trial) | {"batch": self._batches} for trial in trials)
-        self._time(sum(trial.simulated for trial in trials))
+        if not self._journal.repeating:
+            self._time(sum(trial.simulated for trial in trials))
 
     def selection(self, trial: Trial) -> None:
         """A candidate's episodes in the final selection."""

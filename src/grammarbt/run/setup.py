@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import platform
+from concurrent.futures import Executor
+from functools import partial
 from typing import TYPE_CHECKING
 
 import attrs
@@ -11,12 +13,13 @@ import numpy as np
 from grammarbt import __version__
 from grammarbt.bt import compile_policy
 from grammarbt.domain import Domain
-from grammarbt.errors import DomainError, ParameterError
+from grammarbt.errors import DomainError
 from grammarbt.grammar import BoundGrammar, Source, bind, load_grammar
 from grammarbt.plugins.parameters import build
 from grammarbt.plugins.resolve import is_file_reference
 from grammarbt.run.spec import RunSpec
 from grammarbt.run.trees import load_tree
+from grammarbt.run.worker import start_worker
 from grammarbt.search import SearchContext, Searcher
 
 if TYPE_CHECKING:
@@ -32,12 +35,14 @@ class Setup:
         spec: as the user asked.
         domain: simulates.
         searcher: proposes.
+        executor: runs simulations; to be shut down in the end.
         resolved: what `run.json` says.
     """
 
     spec: RunSpec
     domain: Domain
     searcher: Searcher
+    executor: Executor
     resolved: dict[str, object]
 
 
@@ -47,7 +52,7 @@ def prepare(spec: RunSpec, registry: Registry) -> Setup:
     Raises:
         GrammarBTError: a name, a parameter, the grammar or the start tree is wrong.
     """
-    _check_executor(spec, registry)
+    executor = _executor(spec, registry)
     registry.searcher(spec.searcher)
     domain = registry.make_domain(spec.domain, spec.settings("domain"))
     source = _grammar_source(spec, domain, registry)
@@ -55,15 +60,12 @@ def prepare(spec: RunSpec, registry: Registry) -> Setup:
     searcher = registry.make_searcher(
         spec.searcher, _context(spec, domain, grammar, registry), spec.settings("searcher")
     )
-    return Setup(spec, domain, searcher, _resolved(spec, source, grammar, registry))
+    return Setup(spec, domain, searcher, executor, _resolved(spec, source, grammar, registry))
 
 
-def _check_executor(spec: RunSpec, registry: Registry) -> None:
-    if spec.executor != "serial":
-        registry.executor(spec.executor)
-        raise ParameterError(f"executor {spec.executor!r} cannot run this", "leave --executor out")
-    if spec.workers > 1:
-        raise ParameterError(f"the serial executor has one worker, not {spec.workers}", "leave --workers out")
+def _executor(spec: RunSpec, registry: Registry) -> Executor:
+    initializer = partial(start_worker, spec.domain, dict(spec.settings("domain")), registry.host.options)
+    return registry.make_executor(spec.executor_name, spec.workers, initializer, spec.settings("executor"))
 
 
 def _grammar_source(spec: RunSpec, domain: Domain, registry: Registry) -> Source:
@@ -95,6 +97,7 @@ def _start_tree(text: str, domain: Domain, registry: Registry) -> BehaviorTree:
 def _resolved(spec: RunSpec, source: Source, grammar: BoundGrammar, registry: Registry) -> dict[str, object]:
     return {
         "versions": _versions(registry),
+        "spec": attrs.asdict(spec),
         "seed": spec.seed,
         "budget": spec.budget,
         "batch": spec.batch,

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import frozen
 
+from grammarbt.bt import compile_policy
 from grammarbt.domain import Outcome
+from grammarbt.errors import DomainError
 from grammarbt.search import EvaluationStatus
 
 if TYPE_CHECKING:
-    from grammarbt.bt import Policy
+    from grammarbt.bt import BehaviorTree, Policy
     from grammarbt.domain import Domain, Scenarios
 
 
@@ -22,7 +24,8 @@ class Simulation:
     Attributes:
         returns: one per scenario; empty unless the status is `"ok"`.
         ticks: how often each leaf was ticked, over all episodes.
-        status: `"failed"` when the simulator raised, `"invalid"` when its answer cannot be used.
+        status: `"failed"` when the simulator raised or ended its process, `"timeout"` when it took too long, `"invalid"`
+            when its answer or the tree cannot be used.
         error: the reason when it is not `"ok"`.
     """
 
@@ -30,6 +33,15 @@ class Simulation:
     ticks: tuple[int, ...] = ()
     status: EvaluationStatus = "ok"
     error: str = ""
+
+
+def simulate_tree(domain: Domain, tree: BehaviorTree, scenarios: Scenarios) -> Simulation:
+    """Simulate one episode per scenario; a tree that the domain cannot use is invalid."""
+    try:
+        policy = compile_policy(tree, domain.vocabulary.index)
+    except DomainError as error:
+        return Simulation(status="invalid", error=str(error))
+    return simulate(domain, policy, scenarios)
 
 
 def simulate(domain: Domain, policy: Policy, scenarios: Scenarios) -> Simulation:

@@ -70,7 +70,7 @@ class RunSpec:
         domain: a domain's name, or `FILE.py:NAME`.
         searcher: a searcher's name.
         grammar: a grammar's name or file; None for the domain's own.
-        executor: an executor's name.
+        executor: an executor's name; None for serial, or processes when there is more than one worker.
         budget: episodes to simulate, the final selection included.
         seed: fixes everything random.
         batch: trees asked for at a time.
@@ -88,7 +88,7 @@ class RunSpec:
     domain: str = field(default="marine", validator=_text)
     searcher: str = field(default="dagmcts", validator=_text)
     grammar: str | None = field(default=None, validator=optional(_text))
-    executor: str = field(default="serial", validator=_text)
+    executor: str | None = field(default=None, validator=optional(_text))
     budget: int = field(default=5_000, validator=_whole(1))
     seed: int = field(default=0, validator=_whole(0, MAX_SEED))
     batch: int = field(default=1, validator=_whole(1))
@@ -101,6 +101,11 @@ class RunSpec:
     validation: int = field(default=2_000, validator=_whole(2, 2**30))
     selection: float = field(default=0.1, validator=_real(0, 0.9))
     set: Mapping[Part, Mapping[str, object]] = field(factory=dict, validator=_settings)
+
+    @property
+    def executor_name(self) -> str:
+        """The executor's name, also when none is given."""
+        return self.executor or ("serial" if self.workers == 1 else "processes")
 
     @property
     def selection_episodes(self) -> int:

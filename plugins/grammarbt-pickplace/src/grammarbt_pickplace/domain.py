@@ -1,0 +1,54 @@
+"""The pick and place domain: a task's vocabulary and the compiled simulator, as grammarbt wants them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from grammarbt.bt import walk
+from grammarbt.domain import Outcome
+from grammarbt_pickplace import kernel
+from grammarbt_pickplace.parameters import PickPlaceParameters
+from grammarbt_pickplace.state import MEMORY, STATE
+from grammarbt_pickplace.tasks import TASKS
+
+if TYPE_CHECKING:
+    from grammarbt.bt import Policy
+    from grammarbt.domain import Scenarios
+
+
+class PickPlace:
+    """A mobile manipulator fetches cubes from pick tables and puts them on their goal.
+
+    Each node of the tree costs, and each action node has a memory of its own: so the return depends on the tree itself.
+    """
+
+    grammar = "pickplace"
+    depends_on: Literal["behaviour", "tree"] = "tree"
+
+    def __init__(self, parameters: PickPlaceParameters | None = None) -> None:
+        self.parameters = parameters or PickPlaceParameters()
+        task = TASKS[self.parameters.task]
+        self.vocabulary = task.vocabulary
+        self.references = task.references
+        self._starts = np.array(task.starts)
+        self._codes = np.array([kernel.LEAVES.index(leaf.name) for leaf in task.vocabulary.leaves], dtype=np.int32)
+
+    def simulate(self, policy: Policy, scenarios: Scenarios) -> Outcome:
+        """Run one episode per scenario; in S2 that is a run per table, and the return their mean."""
+        state = np.zeros(1, dtype=STATE)
+        state["stochastic"] = self.parameters.stochastic
+        memory = np.zeros(policy.occurrences, dtype=MEMORY)
+        numbers = np.array(scenarios, dtype=np.int64)  # read-only or strided arrays would be compiled for anew
+        return Outcome(*kernel.simulate(self._program(policy), state, memory, self._starts, numbers))
+
+    def _program(self, policy: Policy) -> kernel.Program:
+        entries = np.empty(len(policy.leaf), dtype=kernel.ENTRY)
+        entries["leaf"] = self._codes[policy.leaf]
+        entries["occurrence"] = policy.occurrence
+        follow = entries["follow"]
+        follow[:, kernel.SUCCESS] = policy.on_success
+        follow[:, kernel.FAILURE] = policy.on_failure
+        follow[:, kernel.RUNNING] = policy.on_running
+        return kernel.Program(entries, sum(1 for _ in walk(policy.tree)))

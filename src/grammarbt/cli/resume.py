@@ -1,0 +1,31 @@
+"""`grammarbt resume`: go on with a run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from grammarbt.cli.app import open_registry
+from grammarbt.cli.output import warn
+from grammarbt.cli.progress import make_display
+from grammarbt.cli.run import emit, interruptible
+from grammarbt.run.folder import RunFolder
+from grammarbt.run.resume import resume
+
+
+@click.command("resume")
+@click.argument("run", metavar="RUN", type=click.Path(path_type=Path))
+@click.option("--budget", type=int, metavar="EPISODES", help="A larger budget, in all; as before unless given.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@click.option("--quiet", is_flag=True, help="Show no progress.")
+def command(run: Path, budget: int | None, as_json: bool, quiet: bool) -> None:
+    """Go on with a run that was stopped, or give a finished one a larger budget.
+
+    The journal ends with the same bytes as if the run had never stopped.
+    """
+    registry = open_registry()
+    display = make_display(registry.host, quiet=quiet)
+    with interruptible(display):
+        result = resume(RunFolder(run), budget, registry, display, warn)
+    emit(result, as_json=as_json)

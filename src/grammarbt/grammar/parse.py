@@ -1,0 +1,272 @@
+"""Is this tree in the language? Its derivation, or the place where it leaves the language.
+
+A depth-first walk along the leftmost states, trying productions in the grammar's order and remembering what failed; the
+first derivation found is the first in that order. A state is given up as soon as it holds more or fewer trees than the
+tree still has between the parentheses open there, so guessing where a list of children ends costs nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+from functools import lru_cache
+from heapq import heappop, heappush
+from typing import TypeAlias
+
+from attrs import frozen
+
+from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, children
+from grammarbt.bt.notation import BracketToken, OperatorToken, Token, operator
+from grammarbt.errors import GrammarError
+from grammarbt.grammar.bound import BoundGrammar
+from grammarbt.grammar.form import SententialForm
+from grammarbt.grammar.leftmost import Word
+from grammarbt.grammar.table import Derivation, token_text
+
+MAX_STEPS = 100_000
+"""States looked at, at most, for one tree."""
+
+MAX_BLIND_STEPS = 5_000
+"""States looked at, at most, to say what would have been possible."""
+
+PATIENCE = 4
+"""Rounds after which a number of trees that still grows counts as without bound."""
+
+MANY = 1_000_000
+"""Stands for any number of trees."""
+
+_OPEN, _CLOSED = BracketToken("("), BracketToken(")")
+
+
+class NotInLanguageError(GrammarError):
+    """A tree is not in the language.
+
+    Args:
+        row: the tree's tokens.
+        place: which of them cannot stand where it stands; `len(row)` if the tree should go on.
+        possible: what could stand there instead, in the order of the grammar.
+    """
+
+    def __init__(self, row: tuple[Token, ...], place: int, possible: tuple[str, ...]) -> None:
+        self.row, self.place, self.possible = row, place, possible
+        super().__init__(self._message(), self._hint())
+
+    @property
+    def found(self) -> str:
+        """The token that cannot stand there."""
+        return token_text(self.row[self.place]) if self.place < len(self.row) else "the end"
+
+    @property
+    def before(self) -> str:
+        """The tree up to that place."""
+        return row_text(self.row[: self.place])
+
+    @property
+    def closest(self) -> str | None:
+        """What could stand there and looks most like what does."""
+        same = [text for text in self.possible if text[0] == self.found[0]]
+        return next(iter([*get_close_matches(self.found, same, 1, 0.3), *same, *self.possible]), None)
+
+    def _message(self) -> str:
+        after = f"after {_tail(self.before)!r}" if self.place else "at the beginning"
+        return f"the tree leaves the language at {self.found!r}, node {_node_number(self.row, self.place)}, {after}"
+
+    def _hint(self) -> str:
+        if not self.possible:
+            return "nothing could follow there"
+        shown = ", ".join(self.possible[:8]) + (", …" if len(self.possible) > 8 else "")  # noqa: PLR2004
+        return f"closest: {self.closest}; possible there: {shown}"
+
+
+def parse_tree(bound: BoundGrammar, tree: BehaviorTree, symbol: int | None = None) -> Derivation:
+    """The first derivation of a tree, in the order of the grammar's productions.
+
+    Args:
+        bound: the language.
+        tree: any tree.
+        symbol: the nonterminal to derive it from; the start symbol unless given.
+
+    Raises:
+        NotInLanguageError: it has none; says where it leaves the language.
+        GrammarError: the grammar is so ambiguous that `MAX_STEPS` states did not suffice.
+    """
+    row = tree_tokens(tree)
+    search = _Search(bound, row)
+    derivation = search.derivation(bound.start(symbol))
+    if derivation is None:
+        place, possible = search.furthest(bound.start(symbol))
+        raise NotInLanguageError(row, place, tuple(map(bound.symbol_text, possible)))
+    return derivation
+
+
+def tree_tokens(tree: BehaviorTree) -> tuple[Token, ...]:
+    """The tree as a row of tokens; every operator has its parentheses."""
+    found: list[Token] = []
+    stack: list[Node | BracketToken] = [tree]
+    while stack:
+        node = stack.pop()
+        if isinstance(node, BracketToken | Action | Condition):
+            found.append(node)
+        else:
+            found += [OperatorToken(operator(node)), _OPEN]
+            stack += [_CLOSED, *reversed(children(node))]
+    return tuple(found)
+
+
+def row_text(row: tuple[Token, ...]) -> str:
+    """A row of tokens, which need not be a whole tree, in the notation."""
+    parts = [token_text(token) if token == _OPEN else f" {token_text(token)}" for token in row]
+    return "".join(parts).strip()
+
+
+_Configuration: TypeAlias = tuple[int, SententialForm]
+"""How many tokens are read, and what is still to be derived."""
+
+
+class _Search:
+    """Depth-first for a derivation; best-first for the place where there is none."""
+
+    def __init__(self, bound: BoundGrammar, row: tuple[Token, ...]) -> None:
+        number = {token: at for at, token in enumerate(bound.terminals)}
+        self.leftmost = bound.leftmost
+        self.numbers = [number.get(token, -1) for token in row]
+        self.lookahead = _Lookahead(bound, row)
+        self.possible: dict[int, dict[int, None]] = {}
+
+    def derivation(self, start: SententialForm) -> Derivation | None:
+        """The first derivation, if there is one."""
+        trail: list[int] = []
+        stack, seen = [self._moves((0, start))], {(0, start)}
+        while stack:
+            production, after = next(stack[-1], (-1, None))
+            if after is None:
+                stack.pop()
+                del trail[-1:]
+            elif after not in seen and self.lookahead.fits(*after):
+                seen.add(after)  # whoever comes here again comes in vain: the first visit looks at everything
+                trail.append(production)
+                if not after[1].symbols:
+                    return tuple(trail)
+                stack.append(self._moves(after))
+            if len(seen) > MAX_STEPS:
+                raise GrammarError(f"no derivation found in {MAX_STEPS:,} steps", "make the grammar less ambiguous")
+        return None
+
+    def furthest(self, start: SententialForm) -> tuple[int, tuple[int, ...]]:
+        """How far some derivation spells the tree, and which terminals could follow there.
+
+        Without looking ahead: the place is where people see the difference, not where a count first goes wrong.
+        """
+        self.possible.clear()
+        queue, seen = [(0, 1, 0, start)], {(0, start)}
+        while queue and len(seen) <= MAX_BLIND_STEPS:
+            left, _, _, state = heappop(queue)
+            for _, after in self._moves((-left, state)):
+                if after not in seen:
+                    seen.add(after)
+                    heappush(queue, (-after[0], len(after[1].symbols), len(seen), after[1]))
+        place = max(self.possible, default=0)
+        return place, tuple(self.possible.get(place, ()))
+
+    def _moves(self, here: _Configuration) -> Iterator[tuple[int, _Configuration]]:
+        read, state = here
+        for move in self.leftmost.moves(state):
+            at = self._read(read, move.emits)
+            if at is not None and (move.after.symbols or at == len(self.numbers)):
+                yield move.production, (at, move.after)
+
+    def _read(self, at: int, emits: Word) -> int | None:
+        """The place after the terminals, if the tree has the same ones; notes what would have been possible if not."""
+        for terminal in emits:
+            if at == len(self.numbers) or self.numbers[at] != terminal:
+                self.possible.setdefault(at, {})[terminal] = None
+                return None
+            at += 1
+        return at
+
+
+@frozen
+class _Arity:
+    """How many whole trees a symbol stands for, at least and at most."""
+
+    least: int
+    most: int
+
+
+class _Lookahead:
+    """Compares how many trees come before the parenthesis closes: in a state, and in the tree."""
+
+    def __init__(self, bound: BoundGrammar, row: tuple[Token, ...]) -> None:
+        self.opening, self.closing = bound.brackets
+        self.arities = _arities(bound)
+        self.left = _trees_left(row)
+
+    def fits(self, at: int, state: SententialForm) -> bool:
+        """Whether what a state will spell can have as many trees as the row has from `at` on."""
+        least = most = level = 0
+        for symbol in state.symbols:
+            if symbol == self.closing:
+                level -= 1
+                if level < 0:
+                    break
+            elif symbol == self.opening:
+                least, most = (least + 1, most + 1) if level == 0 else (least, most)
+                level += 1
+            elif level == 0 and symbol >= 0:
+                least += self.arities[symbol].least
+                most += self.arities[symbol].most
+        return least <= self.left[at] <= most
+
+
+def _trees_left(row: tuple[Token, ...]) -> tuple[int, ...]:
+    """For each place, the trees between it and the next parenthesis that closes something open there."""
+    found = [0] * (len(row) + 1)
+    partner: list[int] = []
+    for at in range(len(row) - 1, -1, -1):
+        token = row[at]
+        if token == _CLOSED:
+            partner.append(at)
+        elif token == _OPEN:
+            found[at] = 1 + found[partner.pop() + 1]
+        else:
+            found[at] = found[at + 1] + (not isinstance(token, OperatorToken))
+    return tuple(found)
+
+
+@lru_cache(maxsize=8)
+def _arities(bound: BoundGrammar) -> tuple[_Arity, ...]:
+    """Every symbol's arity, by fixpoint; an operator counts nothing, its parentheses count as the tree."""
+    leaves = (not isinstance(token, OperatorToken | BracketToken) for token in bound.terminals)
+    found = [_Arity(leaf, leaf) for leaf in leaves] + [_Arity(MANY, 0)] * len(bound.names)
+    rounds, before = 0, tuple[_Arity, ...]()
+    while before != tuple(found):
+        rounds, before = rounds + 1, tuple(found)
+        for production in reversed(bound.productions):
+            old = found[production.lhs]
+            least, most = _row_arity(bound, production.rhs, found)
+            if most > old.most and rounds > PATIENCE:
+                most = MANY
+            found[production.lhs] = _Arity(min(old.least, least), max(old.most, most))
+    return before
+
+
+def _row_arity(bound: BoundGrammar, rhs: tuple[int, ...], arities: list[_Arity]) -> tuple[int, int]:
+    opening, closing = bound.brackets
+    least = most = level = 0
+    for symbol in rhs:
+        level -= symbol == closing
+        if level == 0 and symbol == opening:
+            least, most = least + 1, most + 1
+        elif level == 0 and symbol != closing:
+            least, most = least + arities[symbol].least, most + arities[symbol].most
+        level += symbol == opening
+    return min(least, MANY), min(most, MANY)
+
+
+def _tail(text: str, most: int = 60) -> str:
+    return text if len(text) <= most else f"…{text[-most:]}"
+
+
+def _node_number(row: tuple[Token, ...], place: int) -> int:
+    """Which node of the tree stands there, counted from 1 in the order of the notation."""
+    return sum(not isinstance(token, BracketToken) for token in row[: place + 1])

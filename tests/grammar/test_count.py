@@ -1,0 +1,121 @@
+"""Counting is exact: known figures, and brute force on whatever is small enough to list."""
+
+from itertools import product
+
+import numpy as np
+import pytest
+
+from grammarbt.bt.canonical import canonical_key
+from grammarbt.errors import GrammarError
+from grammarbt.grammar import Source, bind, load_grammar
+from grammarbt.grammar.automaton import InfiniteLanguageError, Language, TooLargeError
+from grammarbt.grammar.count import Count, Counter, distinct_words
+
+OVERLAPPING = """
+%declare ACTION CONDITION
+%forall g in GROUP
+%unique g in start
+start: "?" "(" each+ ")"
+each: one{g} | two{g}
+one{g}: "→" "(" ACTION "[a1.0]" ")" | "!" "(" "(c1.0)" ")" | "(c1.0)"
+two{g}: "→" "(" ACTION ACTION ")" | "(c1.0)"
+"""
+"""Blocks with common words; also wrapped into one another."""
+
+WRAPPED = """
+%declare CONDITION
+%forall g in GROUP
+%unique g in start
+start: "?" "(" each+ ")"
+each: part{g} | "!" "(" part{g} ")"
+part{g}: CONDITION{g} | "!" "(" CONDITION{g} ")"
+"""
+"""A block and its surroundings can spell the same."""
+
+
+def language(text, vocabulary):
+    return Language(bind(load_grammar(Source("test.grammar", text)), vocabulary))
+
+
+def brute_force(bound, symbol):
+    derivations = list(bound.enumerate(symbol))
+    words = {word for _, word in derivations}
+    behaviours = {canonical_key(bound.tree_of(word)) for word in words}
+    return Count(len(derivations), len(words), len(behaviours))
+
+
+@pytest.mark.parametrize("name", ["scheide", "marine"])
+@pytest.mark.parametrize("sizes", [((1, 1), (1, 2)), ((2, 1), (1, 0), (1, 1)), ((2, 2), (2, 0))])
+def test_counts_of_shipped_grammars_equal_brute_force(bound, name, sizes):
+    grammar = bound(name, *sizes)
+    counter = Counter(Language(grammar))
+    for symbol in (grammar.start_symbol, *grammar.blocks):
+        assert counter.count(symbol) == brute_force(grammar, symbol)
+
+
+def test_groups_of_table_one_have_the_known_counts(bound):
+    groups = Counter(Language(bound("scheide", (1, 1), (1, 2), (2, 2), (2, 3)))).groups()
+    assert list(groups.values()) == [Count(1, 1, 1), Count(8, 8, 7), Count(146, 106, 86), Count(1418, 1022, 578)]
+
+
+def test_whole_marine_languages_have_the_known_numbers_of_words(bound, marine_sizes):
+    sizes = {name: bound(name, *marine_sizes) for name in ("scheide", "marine")}
+    words = {name: Counter(Language(grammar)).words(grammar.start_symbol) for name, grammar in sizes.items()}
+    assert words == {"scheide": 26_940_800, "marine": 20_393_448_780}
+
+
+def test_groups_of_the_repaired_grammar_have_the_known_behaviours(bound, marine_sizes):
+    groups = Counter(Language(bound("marine", *marine_sizes))).groups()
+    assert [count.behaviours for count in groups.values()] == [1076, 17, 132, 3, 1, 1]
+
+
+def test_groups_without_a_word_count_nothing(bound, marine_sizes):
+    groups = Counter(Language(bound("scheide", *marine_sizes))).groups()
+    assert groups["g5"] == groups["g6"] == Count(0, 0, 0)
+
+
+@pytest.mark.parametrize("text", [OVERLAPPING, WRAPPED])
+@pytest.mark.parametrize("sizes", [((1, 1),), ((2, 1), (1, 1)), ((1, 1), (1, 2), (1, 1))])
+def test_blocks_that_can_be_mistaken_for_something_else_are_counted_exactly(vocabulary, text, sizes):
+    counted = language(text, vocabulary(*sizes))
+    start = counted.bound.start_symbol
+    assert counted.contained
+    assert Counter(counted).count(start) == brute_force(counted.bound, start)
+    words = list(distinct_words(counted, start))
+    assert len(words) == len(set(words))
+    assert set(words) == {word for _, word in counted.bound.enumerate()}
+
+
+@pytest.mark.parametrize(("nodes", "depth"), list(product((3, 4, 5), (2, 3))))
+def test_limited_grammars_equal_brute_force(vocabulary, nodes, depth):
+    limits = f"%limit nodes {nodes}\n%limit depth {depth}\n"
+    text = f'%declare ACTION\n{limits}start: "?" "(" t+ ")"\nt: "→" "(" t t+ ")" | ACTION | t2\nt2: ACTION | t3\nt3: "!" "(" t ")"\n'
+    counted = language(text, vocabulary((2, 0)))
+    start = counted.bound.start_symbol
+    assert Counter(counted).count(start) == brute_force(counted.bound, start)
+
+
+@pytest.mark.parametrize(
+    "rule",
+    ["t: ACTION t | ACTION", "t: t ACTION | ACTION", 't: "→" "(" t t ")" | ACTION', "t: u\nu: ACTION t | ACTION"],
+)
+def test_infinite_languages_are_told_apart_at_once(vocabulary, rule):
+    endless = language(f'%declare ACTION\nstart: "?" "(" t ")"\n{rule}\n', vocabulary((2, 2)))
+    with pytest.raises(InfiniteLanguageError, match="infinitely many"):
+        Counter(endless).words(endless.bound.start_symbol)
+
+
+def test_a_language_too_large_to_count_is_an_error_and_not_a_stall(vocabulary, monkeypatch):
+    monkeypatch.setattr("grammarbt.grammar.automaton.MAX_NODES", 200)
+    text = '%declare ACTION\n%unique ACTION in start\nstart: "?" "(" ACTION+ ")"\n'
+    huge = language(text, vocabulary((30, 0)))
+    with pytest.raises(TooLargeError, match="passes 200 nodes") as caught:
+        Counter(huge).words(huge.bound.start_symbol)
+    assert isinstance(caught.value, GrammarError)
+    assert Counter(huge).count(huge.bound.start_symbol) == Count(None, None, None)
+
+
+def test_derivations_of_the_whole_language_follow_from_the_blocks(bound):
+    grammar = bound("scheide", (1, 2), (2, 2))
+    counter = Counter(Language(grammar))
+    assert counter.derivations(grammar.start_symbol) == 2 * np.prod([8, 146])

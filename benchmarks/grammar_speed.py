@@ -4,7 +4,7 @@ All draw from the same productions, those of Table I over the groups of the mari
 leaf or a group comes only once, so only their valid words count. They are optional: `pip install alogos geneticengine`.
 What is valid is told by brute force: each sub-tree must be among the listed words of its group.
 
-Prints a table, one process, one core; exits with 1 if one of our words is not valid.
+Prints a table, by the process's own clock, on one core; exits with 1 if one of our words is not valid.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import sys
 from abc import ABC
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import make_dataclass
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -51,7 +51,7 @@ class Result:
         return f"{self.name:34}{self.words:11,}{rate:11,.0f}{text}{valid:11,.0f}{self.words - self.valid:11,}"
 
 
-def main(words: int = 1_000_000, rival_words: int = 20_000) -> int:
+def main(words: int = 1_000_000, rival_words: int = 5_000) -> int:
     """Run every contender on the same grammar."""
     grammar = table_one()
     is_valid = Validity(grammar)
@@ -61,9 +61,9 @@ def main(words: int = 1_000_000, rival_words: int = 20_000) -> int:
     for result in [*ours, *rivals]:
         print(result.row())
     if rivals:
-        best = max(result.valid / result.seconds for result in rivals)
+        best = max(result.words / result.seconds for result in rivals)
         slowest = min(result.valid / result.seconds for result in ours)
-        print(f"the slowest of ours is {slowest / best:,.0f} times the best of the others")
+        print(f"valid words of the slowest of ours per word, valid or not, of the fastest other: {slowest / best:,.0f}")
     return int(any(result.valid < result.words for result in ours))
 
 
@@ -121,13 +121,13 @@ def measured(name: str, draw: Draw, words: int, grammar: BoundGrammar, is_valid:
     valid, seconds, seconds_of_text = 0, 0.0, 0.0
     texts = grammar.token_texts
     for done in range(0, words, BATCH):
-        began = perf_counter()
+        began = process_time()
         batch = draw(min(BATCH, words - done))
-        drawn = perf_counter()
+        drawn = process_time()
         for word in batch:
             " ".join([texts[symbol] for symbol in word])
         seconds += drawn - began
-        seconds_of_text += perf_counter() - drawn
+        seconds_of_text += process_time() - drawn
         valid += sum(map(is_valid, batch))
     return Result(name, words, valid, seconds, seconds_of_text)
 

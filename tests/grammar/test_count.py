@@ -1,13 +1,16 @@
 """Counting is exact: known figures, and brute force on whatever is small enough to list."""
 
+import json
+import re
 from itertools import product
 
 import numpy as np
 import pytest
 
 from grammarbt.bt.canonical import canonical_key
+from grammarbt.cli import main
 from grammarbt.errors import GrammarError
-from grammarbt.grammar import Source, bind, load_grammar
+from grammarbt.grammar import Source, bind, load_grammar, shipped_grammars
 from grammarbt.grammar.automaton import InfiniteLanguageError, Language, TooLargeError
 from grammarbt.grammar.count import Count, Counter, distinct_words
 
@@ -51,6 +54,16 @@ def test_counts_of_shipped_grammars_equal_brute_force(bound, name, sizes):
     counter = Counter(Language(grammar))
     for symbol in (grammar.start_symbol, *grammar.blocks):
         assert counter.count(symbol) == brute_force(grammar, symbol)
+
+
+@pytest.mark.parametrize(("name", "nodes"), [("general", 6), ("perez", 8), ("ppa", 9), ("sized", 8)])
+def test_counts_of_shipped_grammars_cut_to_a_few_nodes_equal_brute_force(vocabulary, name, nodes):
+    text = re.sub(r"%limit nodes \d+", f"%limit nodes {nodes}", shipped_grammars()[name].text)
+    counted = language(text, vocabulary((1, 1)))
+    start = counted.bound.start_symbol
+    expected = brute_force(counted.bound, start)
+    assert Counter(counted).count(start) == expected
+    assert expected.words < 20_000
 
 
 def test_groups_of_table_one_have_the_known_counts(bound):
@@ -119,3 +132,29 @@ def test_derivations_of_the_whole_language_follow_from_the_blocks(bound):
     grammar = bound("scheide", (1, 2), (2, 2))
     counter = Counter(Language(grammar))
     assert counter.derivations(grammar.start_symbol) == 2 * np.prod([8, 146])
+
+
+def test_the_command_prints_one_object_with_every_group_and_the_whole(capsys):
+    assert main(["grammar", "count", "marine", "--domain", "marine", "--json"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert result["words"] == 20_393_448_780
+    assert [group["words"] for group in result["groups"].values()] == [1876, 21, 164, 3, 1, 1]
+    assert [group["behaviours"] for group in result["groups"].values()] == [1076, 17, 132, 3, 1, 1]
+
+
+def test_the_command_prints_a_table_for_people(capsys):
+    assert main(["grammar", "count", "scheide", "--domain", "marine"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[1].split() == ["g1", "1,418", "1,022", "578"]
+    assert "26,940,800" in lines[-1]
+
+
+def test_an_infinite_language_is_a_mistake_with_a_hint(capsys, tmp_path):
+    file = tmp_path / "endless.grammar"
+    file.write_text('%declare ACTION\nstart: "?" "(" ACTION+ ")"\n', encoding="utf-8")
+    for verb in ("count", "sample"):
+        assert main(["grammar", verb, str(file), "--domain", "marine"]) == 2
+        error = capsys.readouterr().err
+        assert "infinitely many" in error
+        assert "%limit nodes" in error
+    assert main(["grammar", "sample", str(file), "--domain", "marine", "--uniform", "choices"]) == 0

@@ -1,5 +1,6 @@
 """Reading trees back: the derivation of what is in the language, the place where everything else leaves it."""
 
+import json
 import time
 
 import numpy as np
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 from grammarbt.bt import Action, Condition, Fallback, Not, Parallel, Sequence, format_tree, parse
 from grammarbt.bt.vocabulary import ActionType, ConditionType, Group, Vocabulary
+from grammarbt.cli import main
 from grammarbt.errors import GrammarError
 from grammarbt.grammar import Source, bind, load_grammar, shipped_grammars
 from grammarbt.grammar.parse import NotInLanguageError, parse_tree, row_text, tree_tokens
@@ -145,3 +147,30 @@ def test_a_hopelessly_ambiguous_tree_is_an_error_and_not_a_stall(vocabulary, mon
     grammar = bind(load_grammar(Source("a.grammar", text)), vocabulary((1, 0)))
     with pytest.raises(GrammarError, match="100 steps"):
         parse_tree(grammar, Fallback((*[Action("a1.0")] * 40, Action("alien"))))
+
+
+IN = "?( →( (mine found) [disarm] ) →( [random walk] ) )"
+OUT = "?( →( (mine found) [disarm] ) [random walk] )"
+
+
+def test_the_command_prints_the_derivation_of_a_tree_of_the_language(capsys):
+    assert main(["grammar", "parse", "marine", IN, "--domain", "marine", "--json"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert result["member"]
+    assert result["derivation"][0]["text"].startswith("start ⇒ ?")
+    assert main(["grammar", "parse", "marine", IN, "--domain", "marine"]) == 0
+    assert capsys.readouterr().out.splitlines() == [step["text"] for step in result["derivation"]]
+
+
+def test_the_command_points_at_the_place_where_a_tree_leaves_the_language(capsys):
+    assert main(["grammar", "parse", "marine", OUT, "--domain", "marine"]) == 1
+    line, marks, *_ = capsys.readouterr().out.splitlines()
+    assert line[marks.index("^") :] == "[random walk]"
+    assert main(["grammar", "parse", "marine", OUT, "--domain", "marine", "--json"]) == 1
+    result = json.loads(capsys.readouterr().out)
+    assert (result["member"], result["found"], result["closest"]) == (False, "[random walk]", "→")
+
+
+def test_a_text_that_is_no_tree_is_a_mistake(capsys):
+    assert main(["grammar", "parse", "marine", "?( [a", "--domain", "marine"]) == 2
+    assert "column" in capsys.readouterr().err

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from grammarbt.bt import format_tree, parse
+from grammarbt.cli import main
 from grammarbt.grammar.automaton import Language
 from grammarbt.grammar.uniform import Uniform, draw_ranks, sampler
 
@@ -97,3 +99,15 @@ def test_every_way_of_sampling_gives_words_of_the_language(bound, likely):
     grammar = bound("scheide", (1, 2), (1, 1))
     words = {word for _, word in grammar.enumerate()}
     assert set(sampler(grammar, likely)(np.random.default_rng(0), 500)) == words
+
+
+@pytest.mark.parametrize("likely", ["words", "derivations", "choices"])
+def test_the_command_prints_a_tree_a_line_the_same_for_the_same_seed(capsys, likely):
+    command = ["grammar", "sample", "marine", "--domain", "marine", "-n", "5", "--uniform", likely, "--seed"]
+    printed = []
+    for seed in ("1", "1", "2"):
+        assert main([*command, seed]) == 0
+        printed.append(capsys.readouterr().out)
+    assert printed[0] == printed[1] != printed[2]
+    assert [format_tree(parse(line)) for line in printed[0].splitlines()] == printed[0].splitlines()
+    assert len(printed[0].splitlines()) == 5

@@ -125,11 +125,13 @@ def test_too_many_failures_in_a_row_end_the_run_with_their_cause(tmp_path, capsy
 
 
 def test_a_run_with_all_faults_now_and_then_ends_with_a_score(tmp_path):
-    faults = [f"domain.{fault}=83" for fault in ("raises", "nan", "shape", "exits", "crashes")]
-    settings = [word for fault in faults for word in ("--set", fault)]
-    code, path = run(tmp_path / "run", FAULTY, *settings, "--workers", "2", "--batch", "20", "--validation", "100")
+    faults = {"raises": 31, "nan": 37, "shape": 41, "exits": 83, "crashes": 89}
+    settings = [word for fault, every in faults.items() for word in ("--set", f"domain.{fault}={every}")]
+    line = (*settings, "--workers", "2", "--batch", "20", "--validation", "100")
+    code, path = run(tmp_path / "run", FAULTY, *line, budget=300)
     events = read_journal(path)
     assert code == 0
-    assert sum(event["simulated"] for event in events if "simulated" in event) <= 120
+    assert sum(event["simulated"] for event in events if "simulated" in event) <= 300
     (validation,) = (event for event in events if event["event"] == "validation")
     assert 80 <= validation["episodes"] < 100
+    assert {"ok", "failed", "invalid"} == set(statuses(path))

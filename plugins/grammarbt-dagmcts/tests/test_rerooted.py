@@ -167,7 +167,7 @@ def test_reached_positions_end_with_the_last_sub_tree_that_ran(grammar, rng):
 
 
 def test_trees_race_on_the_scenarios_of_their_root(search):
-    searcher, proposals = search(600)
+    searcher, proposals = search(600, restart_after=600)  # a restart draws its trees on worlds of their own
     strategy = searcher.strategy
     first = [proposal for proposal in proposals if proposal.start >= strategy.root.start]
     assert {proposal.tree for proposal in first} > {strategy.root.listed.tree}

@@ -54,14 +54,6 @@ class _Fork:
     bounds: list[float]
     legs: list[_Leg | None]
 
-    def choose(self, leftmost: Leftmost, draw: float) -> _Leg:
-        """The leg for a number from 0 to 1."""
-        at = bisect_right(self.bounds, draw * self.total)
-        leg = self.legs[at]
-        if leg is None:
-            leg = self.legs[at] = leftmost.leg(self.moves[at])
-        return leg
-
 
 class Leftmost:
     """The states of a grammar's leftmost derivations, kept as they are met."""
@@ -115,20 +107,22 @@ class Leftmost:
 
     def random_walk(self, state: SententialForm, rng: np.random.Generator) -> tuple[Derivation, Word]:
         """Derive a word from a state, choosing among legal moves by weight."""
-        leg = self._leg((), (), state)
-        derivation, word, fork = [*leg[0]], [*leg[1]], leg[2]
+        steps, emits, fork = self._leg((), (), state)
+        derivation, word = [*steps], [*emits]
         draws: list[float] = []
         while fork is not None:
             if not draws:
                 draws = rng.random(DRAWS).tolist()
-            derivation_part, word_part, fork = fork.choose(self, draws.pop())
-            derivation += derivation_part
-            word += word_part
+            at = bisect_right(fork.bounds, draws.pop() * fork.total)
+            steps, emits, fork = fork.legs[at] or self._first_time(fork, at)
+            derivation += steps
+            word += emits
         return tuple(derivation), tuple(word)
 
-    def leg(self, move: Move) -> _Leg:
-        """A move and the moves that follow it without alternative."""
-        return self._leg((move.production,), move.emits, move.after)
+    def _first_time(self, fork: _Fork, at: int) -> _Leg:
+        move = fork.moves[at]
+        leg = fork.legs[at] = self._leg((move.production,), move.emits, move.after)
+        return leg
 
     def _leg(self, derivation: Derivation, word: Word, state: SententialForm) -> _Leg:
         while len(moves := self.moves(state)) == 1:

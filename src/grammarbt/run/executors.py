@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing
 import signal
 from collections.abc import Callable
@@ -163,12 +164,10 @@ def _serve(connection: Connection, initializer: Call) -> None:
     """What a worker process does: answer calls until the other end hangs up."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the run, which ends its workers
     call = initializer
-    while True:
-        connection.send(_packed(call))
-        try:
+    with contextlib.suppress(EOFError, ConnectionError):
+        while True:
+            connection.send(_packed(call))
             call = connection.recv()
-        except EOFError:
-            return
 
 
 def _packed(call: Call) -> Packed:

@@ -43,9 +43,10 @@ class SuccessiveHalving:
             trees = trees[: len(trees) // 2]
         rounds, first = _rounds(len(trees)), FIRST_SELECTION_SCENARIO
         each = budget // rounds if rounds else 0
+        end = self.evaluator.episodes + budget
         while len(trees) > 1:
             last = first + each // len(trees)
-            trees = self._better_half(trees, last)
+            trees = self._better_half(trees, last, end - self.evaluator.episodes)
             first = last
         return trees[0]
 
@@ -55,14 +56,15 @@ class SuccessiveHalving:
             found.setdefault(self.evaluator.key(tree), tree)
         return list(found.values())
 
-    def _better_half(self, trees: list[BehaviorTree], stop: int) -> list[BehaviorTree]:
+    def _better_half(self, trees: list[BehaviorTree], stop: int, left: int) -> list[BehaviorTree]:
         # Earlier rounds' scenarios come from the cache, so a mean is over all that the selection knows.
         proposals = [Proposal(tree, None, FIRST_SELECTION_SCENARIO, stop) for tree in trees]
-        trials = self.evaluator.evaluate(proposals, len(trees) * (stop - FIRST_SELECTION_SCENARIO))
+        # What failed there is simulated again, so the budget may end before the last of them.
+        trials = self.evaluator.evaluate(proposals, left)
         for trial in trials:
             self.record(trial)
         ranked = sorted(trials, key=lambda trial: -trial.evaluation.mean)
-        return [trial.evaluation.proposal.tree for trial in ranked[: ceil(len(trees) / 2)]]
+        return [trial.evaluation.proposal.tree for trial in ranked[: ceil(len(trees) / 2)]] or trees[:1]
 
 
 def _rounds(trees: int) -> int:

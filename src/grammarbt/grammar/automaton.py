@@ -67,9 +67,9 @@ class Language:
         self._steps = 0
 
     @cached_property
-    def contained(self) -> tuple[int, ...]:
+    def contained(self) -> frozenset[int]:
         """Blocks whose words are the same whatever stands around them."""
-        return tuple(block for block in self.bound.blocks if _is_contained(self.bound, block))
+        return frozenset(block for block in self.bound.blocks if _is_contained(self.bound, block))
 
     @cached_property
     def endless(self) -> frozenset[int]:
@@ -99,10 +99,10 @@ class Language:
 
         return explore(self.bound.start(symbol), edges)
 
-    def _units(self, symbol: int) -> tuple[int, ...]:
-        return self.contained if symbol == self.bound.start_symbol else ()
+    def _units(self, symbol: int) -> frozenset[int]:
+        return self.contained if symbol == self.bound.start_symbol else frozenset()
 
-    def first_block(self, state: SententialForm, units: tuple[int, ...]) -> int | None:
+    def first_block(self, state: SententialForm, units: frozenset[int]) -> int | None:
         """The block that is derived next in a state, if it is one of the given ones."""
         first = next((symbol for symbol in state.symbols if symbol >= self.bound.start_symbol), None)
         return first if first in units else None
@@ -159,7 +159,7 @@ class _Next:
 class _Subsets:
     """Subset construction; an item is a row of terminals still to be spelled, and the state after them."""
 
-    def __init__(self, language: Language, units: tuple[int, ...]) -> None:
+    def __init__(self, language: Language, units: frozenset[int]) -> None:
         self.language, self.units = language, units
         self.leftmost = language.bound.leftmost
 
@@ -169,12 +169,12 @@ class _Subsets:
     def edges(self, subset: _Subset) -> tuple[bool, list[tuple[int, _Subset]]]:
         after = self.closure(subset, self.units)
         if after.blocks and not self.language.unmistakable(sorted(after.blocks), after.terminals):
-            after = self.closure(subset, ())
+            after = self.closure(subset, frozenset())
         own = [(terminal, items) for terminal, items in after.terminals.items()]
         own += [(~block, items) for block, items in after.blocks.items()]
         return after.end, [(label, tuple(sorted(items, key=_by_number))) for label, items in sorted(own, key=_label)]
 
-    def closure(self, subset: _Subset, units: tuple[int, ...]) -> _Next:
+    def closure(self, subset: _Subset, units: frozenset[int]) -> _Next:
         found, stack, seen = _Next(), list(subset), set(subset)
         while stack:
             pending, state = stack.pop()

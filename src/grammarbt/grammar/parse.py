@@ -9,11 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from difflib import get_close_matches
-from functools import lru_cache
 from heapq import heappop, heappush
 from typing import TypeAlias
-
-from attrs import frozen
 
 from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, children
 from grammarbt.bt.notation import BracketToken, OperatorToken, Token, operator
@@ -21,6 +18,7 @@ from grammarbt.errors import GrammarError
 from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.form import SententialForm
 from grammarbt.grammar.leftmost import Word
+from grammarbt.grammar.lookahead import CLOSED, OPEN, Lookahead
 from grammarbt.grammar.table import Derivation, token_text
 
 MAX_STEPS = 100_000
@@ -29,13 +27,8 @@ MAX_STEPS = 100_000
 MAX_BLIND_STEPS = 5_000
 """States looked at, at most, to say what would have been possible."""
 
-PATIENCE = 4
-"""Rounds after which a number of trees that still grows counts as without bound."""
-
-MANY = 1_000_000
-"""Stands for any number of trees."""
-
-_OPEN, _CLOSED = BracketToken("("), BracketToken(")")
+MAX_SHOWN = 8
+"""Alternatives named in a message."""
 
 
 class NotInLanguageError(GrammarError):
@@ -74,7 +67,7 @@ class NotInLanguageError(GrammarError):
     def _hint(self) -> str:
         if not self.possible:
             return "nothing could follow there"
-        shown = ", ".join(self.possible[:8]) + (", …" if len(self.possible) > 8 else "")  # noqa: PLR2004
+        shown = ", ".join(self.possible[:MAX_SHOWN]) + (", …" if len(self.possible) > MAX_SHOWN else "")
         return f"closest: {self.closest}; possible there: {shown}"
 
 
@@ -108,14 +101,14 @@ def tree_tokens(tree: BehaviorTree) -> tuple[Token, ...]:
         if isinstance(node, BracketToken | Action | Condition):
             found.append(node)
         else:
-            found += [OperatorToken(operator(node)), _OPEN]
-            stack += [_CLOSED, *reversed(children(node))]
+            found += [OperatorToken(operator(node)), OPEN]
+            stack += [CLOSED, *reversed(children(node))]
     return tuple(found)
 
 
 def row_text(row: tuple[Token, ...]) -> str:
     """A row of tokens, which need not be a whole tree, in the notation."""
-    parts = [token_text(token) if token == _OPEN else f" {token_text(token)}" for token in row]
+    parts = [token_text(token) if token == OPEN else f" {token_text(token)}" for token in row]
     return "".join(parts).strip()
 
 
@@ -130,7 +123,7 @@ class _Search:
         number = {token: at for at, token in enumerate(bound.terminals)}
         self.leftmost = bound.leftmost
         self.numbers = [number.get(token, -1) for token in row]
-        self.lookahead = _Lookahead(bound, row)
+        self.lookahead = Lookahead(bound, row)
         self.possible: dict[int, dict[int, None]] = {}
 
     def derivation(self, start: SententialForm) -> Derivation | None:
@@ -183,84 +176,6 @@ class _Search:
                 return None
             at += 1
         return at
-
-
-@frozen
-class _Arity:
-    """How many whole trees a symbol stands for, at least and at most."""
-
-    least: int
-    most: int
-
-
-class _Lookahead:
-    """Compares how many trees come before the parenthesis closes: in a state, and in the tree."""
-
-    def __init__(self, bound: BoundGrammar, row: tuple[Token, ...]) -> None:
-        self.opening, self.closing = bound.brackets
-        self.arities = _arities(bound)
-        self.left = _trees_left(row)
-
-    def fits(self, at: int, state: SententialForm) -> bool:
-        """Whether what a state will spell can have as many trees as the row has from `at` on."""
-        least = most = level = 0
-        for symbol in state.symbols:
-            if symbol == self.closing:
-                level -= 1
-                if level < 0:
-                    break
-            elif symbol == self.opening:
-                least, most = (least + 1, most + 1) if level == 0 else (least, most)
-                level += 1
-            elif level == 0 and symbol >= 0:
-                least += self.arities[symbol].least
-                most += self.arities[symbol].most
-        return least <= self.left[at] <= most
-
-
-def _trees_left(row: tuple[Token, ...]) -> tuple[int, ...]:
-    """For each place, the trees between it and the next parenthesis that closes something open there."""
-    found = [0] * (len(row) + 1)
-    partner: list[int] = []
-    for at in range(len(row) - 1, -1, -1):
-        token = row[at]
-        if token == _CLOSED:
-            partner.append(at)
-        elif token == _OPEN:
-            found[at] = 1 + found[partner.pop() + 1]
-        else:
-            found[at] = found[at + 1] + (not isinstance(token, OperatorToken))
-    return tuple(found)
-
-
-@lru_cache(maxsize=8)
-def _arities(bound: BoundGrammar) -> tuple[_Arity, ...]:
-    """Every symbol's arity, by fixpoint; an operator counts nothing, its parentheses count as the tree."""
-    leaves = (not isinstance(token, OperatorToken | BracketToken) for token in bound.terminals)
-    found = [_Arity(leaf, leaf) for leaf in leaves] + [_Arity(MANY, 0)] * len(bound.names)
-    rounds, before = 0, tuple[_Arity, ...]()
-    while before != tuple(found):
-        rounds, before = rounds + 1, tuple(found)
-        for production in reversed(bound.productions):
-            old = found[production.lhs]
-            least, most = _row_arity(bound, production.rhs, found)
-            if most > old.most and rounds > PATIENCE:
-                most = MANY
-            found[production.lhs] = _Arity(min(old.least, least), max(old.most, most))
-    return before
-
-
-def _row_arity(bound: BoundGrammar, rhs: tuple[int, ...], arities: list[_Arity]) -> tuple[int, int]:
-    opening, closing = bound.brackets
-    least = most = level = 0
-    for symbol in rhs:
-        level -= symbol == closing
-        if level == 0 and symbol == opening:
-            least, most = least + 1, most + 1
-        elif level == 0 and symbol != closing:
-            least, most = least + arities[symbol].least, most + arities[symbol].most
-        level += symbol == opening
-    return min(least, MANY), min(most, MANY)
 
 
 def _tail(text: str, most: int = 60) -> str:

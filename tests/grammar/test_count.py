@@ -11,8 +11,9 @@ from grammarbt.bt.canonical import canonical_key
 from grammarbt.cli import main
 from grammarbt.errors import GrammarError
 from grammarbt.grammar import Source, bind, load_grammar, shipped_grammars
-from grammarbt.grammar.automaton import InfiniteLanguageError, Language, TooLargeError
+from grammarbt.grammar.automaton import Language
 from grammarbt.grammar.count import Count, Counter, distinct_words
+from grammarbt.grammar.paths import InfiniteLanguageError, TooLargeError
 
 OVERLAPPING = """
 %declare ACTION CONDITION
@@ -119,7 +120,7 @@ def test_infinite_languages_are_told_apart_at_once(vocabulary, rule):
 
 
 def test_a_language_too_large_to_count_is_an_error_and_not_a_stall(vocabulary, monkeypatch):
-    monkeypatch.setattr("grammarbt.grammar.automaton.MAX_NODES", 200)
+    monkeypatch.setattr("grammarbt.grammar.paths.MAX_NODES", 200)
     text = '%declare ACTION\n%unique ACTION in start\nstart: "?" "(" ACTION+ ")"\n'
     huge = language(text, vocabulary((30, 0)))
     with pytest.raises(TooLargeError, match="passes 200 nodes") as caught:

@@ -7,53 +7,20 @@ else there; the graphs stay small, and everything that is counted or drawn from 
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from functools import cache, cached_property
 from itertools import combinations
-from typing import TypeAlias, TypeVar
+from typing import TypeAlias
 
 import networkx as nx
-from attrs import Factory, define, frozen
+from attrs import Factory, define
 
-from grammarbt.errors import GrammarError
 from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.form import SententialForm
 from grammarbt.grammar.leftmost import Move, Word
+from grammarbt.grammar.paths import MAX_STEPS, Paths, explore, infinite, too_large
 from grammarbt.grammar.table import Production
 from grammarbt.grammar.vectors import NOTHING
-
-MAX_NODES = 300_000
-"""Nodes of the largest graph."""
-
-MAX_STEPS = 200_000
-"""Moves looked at, at most, for all graphs of a language together; some tens of microseconds each."""
-
-Edge: TypeAlias = tuple[int, int]
-"""A label and the node it leads to. A label is a terminal, or a production, or, as `~block`, a whole block."""
-
-
-class InfiniteLanguageError(GrammarError):
-    """There is no largest tree, so nothing can be counted or drawn uniformly."""
-
-
-class TooLargeError(GrammarError):
-    """Working on the language exactly would take more than the stated limits."""
-
-
-@frozen
-class Paths:
-    """An acyclic graph that begins at node 0.
-
-    Attributes:
-        edges: each node's edges, by label.
-        final: whether a path may end at the node.
-        order: the nodes, each after all that its edges lead to.
-    """
-
-    edges: tuple[tuple[Edge, ...], ...]
-    final: tuple[bool, ...]
-    order: tuple[int, ...]
 
 
 class Language:
@@ -111,11 +78,11 @@ class Language:
         """The state's moves, if the budget lasts and they do not lead to infinitely many words."""
         first = next((symbol for symbol in state.symbols if symbol >= self.bound.start_symbol), None)
         if first in self.endless:
-            raise _infinite()
+            raise infinite()
         found = self.bound.leftmost.moves(state)
         self._steps += len(found)
         if self._steps > MAX_STEPS:
-            raise _too_large()
+            raise too_large()
         return found
 
     def unmistakable(self, blocks: Sequence[int], terminals: Iterable[int]) -> bool:
@@ -144,7 +111,6 @@ class Language:
 
 _Item: TypeAlias = tuple[Word, SententialForm]
 _Subset: TypeAlias = tuple[_Item, ...]
-_Key = TypeVar("_Key")
 
 
 @define
@@ -205,52 +171,6 @@ def without_first(state: SententialForm, symbol: int) -> SententialForm:
     """The state after its first nonterminal has been derived without touching any open scope."""
     at = state.symbols.index(symbol)
     return SententialForm((*state.symbols[:at], *state.symbols[at + 1 :]), state.used)
-
-
-def explore(start: _Key, edges: Callable[[_Key], tuple[bool, list[tuple[int, _Key]]]]) -> Paths:
-    """The graph that `edges` spans, breadth-first so that endless growth is met while things are small."""
-    number, queue = {start: 0}, deque([start])
-    table: list[tuple[Edge, ...]] = []
-    final: list[bool] = []
-    while queue:
-        end, own = edges(queue.popleft())
-        for _, after in own:
-            if after not in number:
-                number[after] = len(number)
-                queue.append(after)
-        if len(number) > MAX_NODES:
-            raise _too_large()
-        final.append(end)
-        table.append(tuple((label, number[after]) for label, after in own))
-    return Paths(tuple(table), tuple(final), _children_first(table))
-
-
-def _children_first(edges: Sequence[Sequence[Edge]]) -> tuple[int, ...]:
-    waiting = [len(own) for own in edges]
-    parents: list[list[int]] = [[] for _ in edges]
-    for node, own in enumerate(edges):
-        for _, after in own:
-            parents[after].append(node)
-    order = [node for node, count in enumerate(waiting) if not count]
-    for node in order:
-        for parent in parents[node]:
-            waiting[parent] -= 1
-            if not waiting[parent]:
-                order.append(parent)
-    if len(order) < len(edges):
-        raise _infinite()
-    return tuple(order)
-
-
-def _infinite() -> InfiniteLanguageError:
-    return InfiniteLanguageError(
-        "the language has infinitely many trees", "limit them, for example with `%limit nodes 40`"
-    )
-
-
-def _too_large() -> TooLargeError:
-    message = f"the language is too large: its graph passes {MAX_NODES:,} nodes or {MAX_STEPS:,} steps"
-    return TooLargeError(message, "use fewer groups or leaves, or a smaller %limit")
 
 
 def _is_prefix_free(graph: Paths) -> bool:

@@ -9,8 +9,9 @@ from attrs import frozen
 
 from grammarbt.bt.canonical import canonical_key
 from grammarbt.bt.model import Condition
-from grammarbt.grammar.automaton import Language, Paths, TooLargeError
+from grammarbt.grammar.automaton import Language
 from grammarbt.grammar.leftmost import Word
+from grammarbt.grammar.paths import Paths, TooLargeError
 
 MAX_LISTED = 200_000
 """Words up to which behaviours are counted; that takes listing them."""

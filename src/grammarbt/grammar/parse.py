@@ -37,7 +37,7 @@ class NotInLanguageError(GrammarError):
     Args:
         row: the tree's tokens.
         place: which of them cannot stand where it stands; `len(row)` if the tree should go on.
-        possible: what could stand there instead, in the order of the grammar.
+        possible: what could stand there instead.
     """
 
     def __init__(self, row: tuple[Token, ...], place: int, possible: tuple[str, ...]) -> None:
@@ -87,7 +87,7 @@ def parse_tree(bound: BoundGrammar, tree: BehaviorTree, symbol: int | None = Non
     search = _Search(bound, row)
     derivation = search.derivation(bound.start(symbol))
     if derivation is None:
-        place, possible = search.furthest(bound.start(symbol))
+        place, possible = search.furthest()
         raise NotInLanguageError(row, place, tuple(map(bound.symbol_text, possible)))
     return derivation
 
@@ -125,6 +125,7 @@ class _Search:
         self.numbers = [number.get(token, -1) for token in row]
         self.lookahead = Lookahead(bound, row)
         self.possible: dict[int, dict[int, None]] = {}
+        self.refused: list[_Configuration] = []
 
     def derivation(self, start: SententialForm) -> Derivation | None:
         """The first derivation, if there is one."""
@@ -135,8 +136,11 @@ class _Search:
             if after is None:
                 stack.pop()
                 del trail[-1:]
-            elif after not in seen and self.lookahead.fits(*after):
+            elif after not in seen:
                 seen.add(after)  # whoever comes here again comes in vain: the first visit looks at everything
+                if not self.lookahead.fits(*after):
+                    self.refused.append(after)
+                    continue
                 trail.append(production)
                 if not after[1].symbols:
                     return tuple(trail)
@@ -145,14 +149,19 @@ class _Search:
                 raise GrammarError(f"no derivation found in {MAX_STEPS:,} steps", "make the grammar less ambiguous")
         return None
 
-    def furthest(self, start: SententialForm) -> tuple[int, tuple[int, ...]]:
+    def furthest(self) -> tuple[int, tuple[int, ...]]:
         """How far some derivation spells the tree, and which terminals could follow there.
 
-        Without looking ahead: the place is where people see the difference, not where a count first goes wrong.
+        Goes on, for a while, where the search for a derivation gave up because a number of trees did not fit: people
+        see the difference where the trees differ, not where a count first goes wrong.
         """
-        self.possible.clear()
-        queue, seen = [(0, 1, 0, start)], {(0, start)}
-        while queue and len(seen) <= MAX_BLIND_STEPS:
+        queue: list[tuple[int, int, int, SententialForm]] = []
+        seen = set(self.refused)
+        for number, (read, state) in enumerate(self.refused):
+            heappush(queue, (-read, len(state.symbols), number, state))
+        for _ in range(MAX_BLIND_STEPS):
+            if not queue:
+                break
             left, _, _, state = heappop(queue)
             for _, after in self._moves((-left, state)):
                 if after not in seen:

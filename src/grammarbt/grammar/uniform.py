@@ -14,10 +14,11 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from grammarbt.grammar.automaton import Language, Paths
+from grammarbt.grammar.automaton import Language
 from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.count import totals
 from grammarbt.grammar.leftmost import Word
+from grammarbt.grammar.paths import Paths
 
 Steps: TypeAlias = tuple[int, ...]
 """Terminals, or productions."""

@@ -24,9 +24,10 @@ class Site:
         return info
 
     def python(self, *arguments, **environment):
+        own = {name: value for name, value in os.environ.items() if not name.startswith("GRAMMARBT_")}
         return subprocess.run(
             [sys.executable, *arguments],
-            env=os.environ | {"PYTHONPATH": str(self.folder)} | environment,
+            env=own | {"PYTHONPATH": str(self.folder)} | environment,
             capture_output=True,
             text=True,
             check=False,

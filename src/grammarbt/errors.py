@@ -74,7 +74,7 @@ class UnknownNameError(GrammarBTError):
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """The sentence that helps after a name nobody knows: the nearest names, or all of them."""
-    names = sorted(known)
+    names = sorted(set(known))
     close = get_close_matches(name, names, n=2, cutoff=0.6)
     if close:
         return "did you mean " + " or ".join(repr(match) for match in close) + "?"

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 _EVERY = 5.0
 """Seconds between two plain lines."""
 
+_SETTLED = 10
+"""Episodes before the rate says something about the rest: the first wait for a domain to compile."""
+
 
 class Display(Watcher):
     """Passes events on to the plugins, and keeps the figures that every display shows."""
@@ -82,8 +85,8 @@ class Lines(Display):
 
     def _line(self) -> str:
         of = f" of {self.total:,}" if self.total else ""
-        left = max(self.total - self.done, 0) / max(self.rate, 1e-6)
-        eta = f", {left:.0f} s left" if self.total else ""
+        known = self.total and self.done >= _SETTLED and self.rate
+        eta = f", {max(self.total - self.done, 0) / self.rate:.0f} s left" if known else ""
         return f"{self.name}: {self.done:,}{of} episodes, {self.rate:,.0f}/s{eta}; {self.best}".rstrip("; ")
 
 

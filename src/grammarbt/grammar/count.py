@@ -8,7 +8,6 @@ from functools import cache
 from attrs import frozen
 
 from grammarbt.bt.canonical import canonical_key
-from grammarbt.bt.model import Condition
 from grammarbt.grammar.automaton import Language
 from grammarbt.grammar.leftmost import Word
 from grammarbt.grammar.paths import Paths, TooLargeError
@@ -62,12 +61,8 @@ class Counter:
     def behaviours(self, symbol: int) -> int:
         """Distinct canonical forms among the words, by listing them all."""
         bound = self.language.bound
-        pure = {leaf for leaf, kind in bound.vocabulary.types.items() if getattr(kind, "pure", False)}
-
-        def is_pure(condition: Condition) -> bool:
-            return condition in pure
-
-        return len({canonical_key(bound.tree_of(word), is_pure) for word in distinct_words(self.language, symbol)})
+        words, is_pure = distinct_words(self.language, symbol), bound.vocabulary.is_pure
+        return len({canonical_key(bound.tree_of(word), is_pure) for word in words})
 
     def _words(self, symbol: int) -> int:
         return totals(self.language.words(symbol), self.words)[0]

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import frozen
 
-from grammarbt.bt import BehaviorTree, Condition, format_tree
+from grammarbt.bt import BehaviorTree, format_tree
 from grammarbt.bt.canonical import canonical_key
-from grammarbt.domain import ConditionType, Domain, scenario_numbers
+from grammarbt.domain import Domain, scenario_numbers
 from grammarbt.run.replay import Replay
 from grammarbt.run.simulate import Simulation
 from grammarbt.run.simulator import Simulator, serial_simulator
@@ -134,10 +134,4 @@ def tree_key(domain: Domain) -> Callable[[BehaviorTree], bytes]:
     """The function whose value two trees share when the domain cannot tell them apart."""
     if domain.depends_on == "tree":
         return lambda tree: format_tree(tree).encode()
-    types = domain.vocabulary.types
-
-    def is_pure(condition: Condition) -> bool:
-        declared = types.get(condition)
-        return isinstance(declared, ConditionType) and declared.pure
-
-    return lambda tree: canonical_key(tree, is_pure)
+    return lambda tree: canonical_key(tree, domain.vocabulary.is_pure)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from grammarbt.bt import BehaviorTree, Condition
+from grammarbt.bt import BehaviorTree
 from grammarbt.bt.canonical import canonical_key
-from grammarbt.domain import ConditionType
 from grammarbt.search import SearchContext
 from grammarbt_dagmcts.blocks import Behaviour
 
@@ -13,13 +12,7 @@ def behaviour_of(context: SearchContext) -> Behaviour:
     """Equal for trees with equal returns: by behaviour, or the tree itself where the domain's return depends on it."""
     if context.depends_on == "tree":
         return _itself
-    types = context.vocabulary.types
-
-    def is_pure(condition: Condition) -> bool:
-        declared = types.get(condition)
-        return isinstance(declared, ConditionType) and declared.pure
-
-    return lambda tree: canonical_key(tree, is_pure)
+    return lambda tree: canonical_key(tree, context.vocabulary.is_pure)
 
 
 def _itself(tree: BehaviorTree) -> object:

@@ -20,6 +20,7 @@ from grammarbt.domain.base import (
     Scenarios,
     scenario_numbers,
 )
+from grammarbt.domain.episode import Drawing, Episode, Frame, Mark, Role, Shape, Watchable
 from grammarbt.domain.tick import TickDomain
 
 __all__ = [
@@ -28,15 +29,22 @@ __all__ = [
     "ActionType",
     "ConditionType",
     "Domain",
+    "Drawing",
+    "Episode",
+    "Frame",
     "Group",
     "LeafType",
+    "Mark",
     "NoParameters",
     "Outcome",
     "Reference",
     "Returns",
+    "Role",
     "Scenarios",
+    "Shape",
     "TickDomain",
     "Vocabulary",
+    "Watchable",
     "actions_of",
     "conditions_of",
     "scenario_numbers",

@@ -1,7 +1,7 @@
 import pytest
 
+from grammarbt.search import block_derivations, leftmost, position_of
 from grammarbt_dagmcts.dag import Dag, ancestors
-from grammarbt_dagmcts.derivations import block_derivations, leftmost, position_of
 from grammarbt_dagmcts.paper import PaperSearch
 from grammarbt_dagmcts.parameters import DagMctsParameters
 

@@ -4,13 +4,20 @@ import pytest
 from grammarbt.bt import leaves
 from grammarbt.bt.canonical import behave_alike, canonical_key
 from grammarbt.grammar import Source, bind, load_grammar
-from grammarbt.search import Evaluation
-from grammarbt_dagmcts.bandits import Ucb1
-from grammarbt_dagmcts.behaviours import behaviour_of
-from grammarbt_dagmcts.blocks import BlockDag, piece_of
-from grammarbt_dagmcts.race import Runner, closes, judge, next_stage
-from grammarbt_dagmcts.rootlist import RootList
-from grammarbt_dagmcts.trim import reached_positions, trimmed
+from grammarbt.search import (
+    BlockDag,
+    Evaluation,
+    RootList,
+    Runner,
+    Ucb1,
+    behaviour_of,
+    closes,
+    judge,
+    next_stage,
+    piece_of,
+    reached_positions,
+    trimmed,
+)
 
 
 @pytest.fixture

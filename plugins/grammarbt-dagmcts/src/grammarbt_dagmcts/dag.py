@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from attrs import define, field
 
 from grammarbt.grammar import BoundGrammar, SententialForm
-from grammarbt_dagmcts.bandits import Arm
+from grammarbt.search import Arm
 
 
 @define(eq=False)

@@ -11,10 +11,7 @@ import numpy as np
 from attrs import define, field, frozen
 
 from grammarbt.grammar import Derivation
-from grammarbt_dagmcts.bandits import Arm, Bandit
-from grammarbt_dagmcts.blocks import BlockDag, BlockNode, Piece
-from grammarbt_dagmcts.race import Runner
-from grammarbt_dagmcts.rootlist import ListedTree, RootList
+from grammarbt.search import Arm, Bandit, BlockDag, BlockNode, ListedTree, Piece, RootList, Runner
 
 INSERT = 0.85
 """Chance that adding inserts; else it replaces what stands there."""

@@ -14,12 +14,23 @@ from attrs import frozen
 from grammarbt.bt import BehaviorTree
 from grammarbt.errors import SearcherError
 from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
-from grammarbt.search import Evaluation, Proposal, SearchContext
-from grammarbt_dagmcts.bandits import Arm, make_bandit
+from grammarbt.search import (
+    Arm,
+    Batches,
+    Evaluation,
+    HallOfFame,
+    Proposal,
+    Scenarios,
+    SearchContext,
+    Step,
+    Width,
+    block_derivations,
+    leftmost,
+    make_bandit,
+    position_of,
+)
 from grammarbt_dagmcts.dag import Dag, Node, ancestors
-from grammarbt_dagmcts.derivations import Step, block_derivations, leftmost, position_of
 from grammarbt_dagmcts.parameters import DagMctsParameters
-from grammarbt_dagmcts.strategy import Batches, HallOfFame, Scenarios, Width
 
 LONGEST_ROLL_OUT = 2_000
 

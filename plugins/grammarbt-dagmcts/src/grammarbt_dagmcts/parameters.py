@@ -6,8 +6,9 @@ from typing import Literal
 
 from attrs import field, frozen, validators
 
+from grammarbt.search import BanditName
+
 Preset = Literal["default", "paper"]
-BanditName = Literal["ucb1", "ucb1-tuned", "ucb1-normal2", "threshold-ascent"]
 
 
 @frozen

@@ -11,16 +11,27 @@ from attrs import define
 
 from grammarbt.bt import BehaviorTree, format_tree
 from grammarbt.errors import SearcherError
-from grammarbt.search import SearchContext
-from grammarbt_dagmcts.bandits import make_bandit
-from grammarbt_dagmcts.behaviours import behaviour_of
-from grammarbt_dagmcts.blocks import BlockDag
+from grammarbt.search import (
+    Batches,
+    BlockDag,
+    HallOfFame,
+    ListedTree,
+    RootList,
+    Runner,
+    Scenarios,
+    SearchContext,
+    Width,
+    behaviour_of,
+    closes,
+    differences,
+    judge,
+    make_bandit,
+    next_stage,
+    reached_positions,
+    trimmed,
+)
 from grammarbt_dagmcts.neighbourhood import Key, Neighbour, Neighbourhood, key_of
 from grammarbt_dagmcts.parameters import DagMctsParameters
-from grammarbt_dagmcts.race import Runner, closes, differences, judge, next_stage
-from grammarbt_dagmcts.rootlist import ListedTree, RootList
-from grammarbt_dagmcts.strategy import Batches, HallOfFame, Scenarios, Width
-from grammarbt_dagmcts.trim import reached_positions, trimmed
 
 ELITES = 2
 ELITE_EVERY = 3

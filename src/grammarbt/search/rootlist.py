@@ -11,8 +11,8 @@ from grammarbt.bt import BehaviorTree, Fallback
 from grammarbt.bt import Sequence as SequenceNode
 from grammarbt.errors import GrammarError
 from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
-from grammarbt_dagmcts.blocks import Piece, piece_of
-from grammarbt_dagmcts.derivations import (
+from grammarbt.search.blocks import Piece, piece_of
+from grammarbt.search.derivations import (
     Step,
     Template,
     block_derivations,

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from grammarbt_dagmcts.bandits import Arm, ThresholdAscent, Ucb1, make_bandit
+from grammarbt.search import Arm, ThresholdAscent, Ucb1, make_bandit
 
 RULES = ("ucb1", "ucb1-tuned", "ucb1-normal2", "threshold-ascent")
 

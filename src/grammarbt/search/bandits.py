@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from bisect import insort
 from math import log, sqrt
-from typing import Protocol
+from typing import Literal, Protocol
 
 from attrs import define, field
 
-from grammarbt_dagmcts.parameters import BanditName
+BanditName = Literal["ucb1", "ucb1-tuned", "ucb1-normal2", "threshold-ascent"]
 
 
 @define(eq=False)

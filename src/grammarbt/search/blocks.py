@@ -15,7 +15,7 @@ from attrs import define, field, frozen
 
 from grammarbt.bt import BehaviorTree, leaves
 from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
-from grammarbt_dagmcts.bandits import Arm, Bandit
+from grammarbt.search.bandits import Arm, Bandit
 
 SHORTNESS = 0.2
 """How much less a word weighs per token."""

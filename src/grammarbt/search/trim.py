@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from attrs import evolve
 
-from grammarbt_dagmcts.race import Runner
-from grammarbt_dagmcts.rootlist import RootList
+from grammarbt.search.race import Runner
+from grammarbt.search.rootlist import RootList
 
 EPISODES = 4
 """Episodes after which a sub-tree that was never ticked is dropped."""

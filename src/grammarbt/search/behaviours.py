@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from grammarbt.bt import BehaviorTree
 from grammarbt.bt.canonical import canonical_key
-from grammarbt.search import SearchContext
-from grammarbt_dagmcts.blocks import Behaviour
+from grammarbt.search.base import SearchContext
+from grammarbt.search.blocks import Behaviour
 
 
 def behaviour_of(context: SearchContext) -> Behaviour:

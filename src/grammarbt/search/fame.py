@@ -1,51 +1,13 @@
-"""What the presets have in common: a search written as a generator of batches, and a record of good trees."""
+"""A record of good trees, for the final selection."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Mapping, Sequence
-from typing import Protocol, TypeAlias, TypeVar
+from collections.abc import Sequence
 
 from attrs import define
 
 from grammarbt.bt import BehaviorTree
-from grammarbt.search import Evaluation, Proposal
-from grammarbt_dagmcts.bandits import Arm
-
-Result = TypeVar("Result")
-Batches: TypeAlias = Generator[list[Proposal], list[Evaluation], Result]
-"""Yields proposals and is sent their evaluations in the same order; a whole search ends when nothing is left to try."""
-
-Width: TypeAlias = Callable[[], int]
-"""How many independent proposals the run can use now."""
-
-
-class Strategy(Protocol):
-    """A preset."""
-
-    def batches(self, width: Width) -> Batches[None]:
-        """The search itself."""
-        ...
-
-    def candidates(self, n: int) -> Sequence[BehaviorTree]:
-        """At most n trees, best first."""
-        ...
-
-    def metrics(self) -> Mapping[str, float]:
-        """Figures about the search so far."""
-        ...
-
-
-class Scenarios:
-    """Hands out ranges of scenarios that were never used before."""
-
-    def __init__(self) -> None:
-        self.used = 0
-
-    def fresh(self, n: int) -> int:
-        """The first of n new ones."""
-        start = self.used
-        self.used += n
-        return start
+from grammarbt.search.bandits import Arm
 
 
 @define(eq=False)

@@ -8,8 +8,8 @@ from typing import Literal
 
 from attrs import define, field
 
-from grammarbt.search import Evaluation, Proposal
-from grammarbt_dagmcts.rootlist import ListedTree
+from grammarbt.search.base import Evaluation, Proposal
+from grammarbt.search.rootlist import ListedTree
 
 Verdict = Literal["accept", "reject", "go on"]
 

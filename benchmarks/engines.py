@@ -1,4 +1,4 @@
-"""Three ways to tick a tree that report alike: the flat policy, py_trees, and BehaviorTree.CPP from the exported files."""
+"""Ways to tick a tree that report alike: our own, py_trees, and BehaviorTree.CPP from the exported files."""
 
 from __future__ import annotations
 
@@ -6,21 +6,33 @@ import os
 import re
 import sys
 import tempfile
+from collections.abc import Sequence
 from itertools import count
 from typing import TYPE_CHECKING, Any, Self
 
 import behaviortreepy
 import py_trees
-from attrs import define, field, frozen
+from attrs import Factory, define, field, frozen
 
-from grammarbt.bt import Action, BehaviorTree, Condition, Parallel, Status, flatten, leaves, tick, walk
+from grammarbt.bt import (
+    Action,
+    BehaviorTree,
+    Condition,
+    Parallel,
+    Status,
+    Ticker,
+    flatten,
+    leaves,
+    numbered,
+    ticker,
+    walk,
+)
 from grammarbt.bt.formats import btcpp
 from grammarbt.bt.formats import py_trees as py_trees_format
-from grammarbt.bt.layout import numbered
 from grammarbt.bt.trace import node_statuses
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
 
 @frozen
@@ -41,25 +53,22 @@ def has_parallel(tree: BehaviorTree) -> bool:
 
 @define
 class Ours:
-    """The flat policy; started and halted follow from the leaves ticked.
+    """The flat form, or another ticker; started and halted follow from the leaves ticked.
 
     Attributes:
         forgets: halt everything before each tick.
+        once: ticks the tree once.
     """
 
     tree: BehaviorTree
     forgets: bool = False
+    once: Ticker = field(default=Factory(lambda self: ticker(flatten(self.tree)), takes_self=True))
     running: set[int] = field(factory=set)
 
     def tick(self, answers: Sequence[Status]) -> Seen:
         """Tick once; `answers` are what the leaves say if asked."""
-        order: list[int] = []
-
-        def answer(_: object, occurrence: int) -> Status:
-            order.append(occurrence)
-            return answers[occurrence]
-
-        root = tick(flatten(self.tree), answer)
+        asked = _Asked(answers)
+        root, order = self.once(asked), asked.order
         found = node_statuses(self.tree, {occurrence: answers[occurrence] for occurrence in order})
         before = set() if self.forgets else self.running
         self.running = _running_after(self.tree, found)
@@ -68,6 +77,18 @@ class Ours:
         halted = (before - set(acting)) | (ran - self.running)
         statuses = {place: status for place, status in enumerate(found) if status is not None}
         return Seen(root, tuple(order), statuses, tuple(at for at in acting if at not in before), tuple(sorted(halted)))
+
+
+@define
+class _Asked:
+    """Answers that remember what was asked."""
+
+    answers: Sequence[Status]
+    order: list[int] = field(factory=list)
+
+    def __getitem__(self, occurrence: int) -> Status:
+        self.order.append(occurrence)
+        return self.answers[occurrence]
 
 
 def _running_after(tree: BehaviorTree, statuses: Sequence[Status | None]) -> set[int]:

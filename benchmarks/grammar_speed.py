@@ -21,9 +21,7 @@ import numpy as np
 from attrs import frozen
 
 from grammarbt.bt.vocabulary import ActionType, ConditionType, Group, Vocabulary
-from grammarbt.grammar import BoundGrammar, Word, bind, load_grammar, shipped_grammars
-from grammarbt.grammar.automaton import Language
-from grammarbt.grammar.uniform import Uniform
+from grammarbt.grammar import BoundGrammar, Language, Uniform, Word, bind, load_grammar, shipped_grammars
 
 SIZES = ((2, 3), (1, 2), (2, 2), (1, 1), (1, 0), (1, 0))
 BATCH = 10_000

@@ -1,12 +1,28 @@
-"""Hostile grammar files: random texts, mutations of the shipped grammars, and texts built to blow up."""
+"""Hostile grammar files: random texts, mutations of the shipped grammars, and texts built to blow up.
+
+Mutations of characters mostly end as syntax errors; edits of words, signs and whole statements mostly do not, and so
+come to whatever works behind the reader.
+"""
 
 from __future__ import annotations
 
 import random
+import re
 from collections.abc import Iterator
 
+import numpy as np
+
 from grammarbt.bt.vocabulary import ActionType, ConditionType, Group, Vocabulary
-from grammarbt.grammar import GrammarFileError, Source, bind, load_grammar, shipped_grammars
+from grammarbt.errors import GrammarError
+from grammarbt.grammar import (
+    GrammarFileError,
+    NotInLanguageError,
+    Source,
+    bind,
+    load_grammar,
+    parse_tree,
+    shipped_grammars,
+)
 
 PIECES = (
     "start", "start: ", "a", "b", "x", "g", "g1", "tree{g}", "ACTION", "CONDITION", "ACTION{g}", "GROUP", ":", "|",
@@ -49,6 +65,81 @@ def mutated(rng: random.Random) -> str:
             )
         )
     return text
+
+
+_TOKEN = re.compile(r'"[^"\n]*"|//[^\n]*|%\w+|\w+|\s+|.')
+_STRINGS = ('"?"', '"→"', '"!"', '"‖2"', '"("', '")"', '"[a11]"', '"(c11)"', '"?" "("', '"!" "("')
+_POSTFIX = ("?", "*", "+", "~2", "~1..3", "~0..2", "~5..40", "{g}", "{ACTION}", " @ 3", " | ACTION", " | start")
+_STATEMENTS = (
+    "%limit nodes {n}", "%limit depth {n}", "%limit nodes {n} in {a}", "%limit depth {n} in {a}", "%unique ACTION in {a}",
+    "%unique ACTION CONDITION in {a}", "%unique g in {a}", "%forall h in GROUP", "%import general.{a}",
+    "{a}: {b} | ACTION", '{a}: "→" "(" {b}+ ")"', "extra{{x}}: {a} x | x", '{a}: "?" "(" {a} {b} ")" | CONDITION',
+)  # fmt: skip
+
+
+def edited(rng: random.Random) -> str:
+    """A shipped grammar in which names, strings, repetitions and statements have been changed or exchanged."""
+    text = rng.choice([source.text for source in shipped_grammars().values()])
+    for _ in range(rng.randrange(1, 5)):
+        words = _TOKEN.findall(text)
+        places = list(_in_rules(words))
+        names = [at for at in places if words[at][0].isalpha()]
+        strings = [at for at in places if words[at][0] == '"']
+        if names and strings:
+            text = rng.choice((_renamed, _respelt, _repeated, _rearranged))(rng, words, names, strings)
+    return text
+
+
+def _in_rules(words: list[str]) -> Iterator[int]:
+    """Places on the right-hand sides of rules, outside braces."""
+    right, level = False, 0
+    for at, word in enumerate(words):
+        if "\n" in word:
+            right = word.endswith(" ")
+        level += (word == "{") - (word == "}")
+        if right and not level:
+            yield at
+        right = (right or word == ":") and not word.startswith("%")
+
+
+def _renamed(rng: random.Random, words: list[str], names: list[int], strings: list[int]) -> str:
+    """A name stands where another one stood."""
+    del strings
+    words[rng.choice(names)] = rng.choice((words[rng.choice(names)], "ACTION", "CONDITION", "g1"))
+    return "".join(words)
+
+
+def _respelt(rng: random.Random, words: list[str], names: list[int], strings: list[int]) -> str:
+    """Another string, a string for a name, or nothing."""
+    words[rng.choice((*strings, *names))] = rng.choice((*_STRINGS, ""))
+    return "".join(words)
+
+
+def _repeated(rng: random.Random, words: list[str], names: list[int], strings: list[int]) -> str:
+    """Something is repeated, optional, or has another alternative; or a number changes."""
+    numbers = [at for at, word in enumerate(words) if word.isdigit()]
+    if numbers and rng.random() < 1 / 4:
+        words[rng.choice(numbers)] = str(rng.choice((0, 1, 2, 3, 7, 50, 400)))
+    else:
+        words[rng.choice((*names, *strings))] += rng.choice(_POSTFIX)
+    return "".join(words)
+
+
+def _rearranged(rng: random.Random, words: list[str], names: list[int], strings: list[int]) -> str:
+    """A line is lost, doubled or moved, or a statement is added."""
+    del strings
+    lines = "".join(words).split("\n")
+    line = rng.randrange(len(lines))
+    new = rng.choice(_STATEMENTS).format(
+        n=rng.choice((0, 1, 3, 12, 60, 900)), a=words[rng.choice(names)], b=words[rng.choice(names)]
+    )
+    cut = lines[:line] + lines[line + 1 :]
+    other = rng.randrange(len(lines))
+    return "\n".join(
+        rng.choice(
+            (cut, [*cut[:other], lines[line], *cut[other:]], [*lines, lines[line]], [*lines, new], [*lines, new])
+        )
+    )
 
 
 def explosive() -> Iterator[tuple[str, str]]:
@@ -95,11 +186,26 @@ def explosive() -> Iterator[tuple[str, str]]:
     yield "depth of everything", f'{leaf}%limit depth 400\nstart: "?" "(" (start | ACTION)~1..60 ")"'
 
 
-def outcome(text: str, vocabulary: Vocabulary = VOCABULARY) -> str:
-    """`bound`, or the code of the first finding; anything else that happens is a bug."""
+def outcome(text: str, vocabulary: Vocabulary = VOCABULARY) -> tuple[str, bool]:
+    """`bound`, or the code of the first finding, and whether the binder was reached; all else that happens is a bug.
+
+    What is bound has to derive a tree, unless its random trees grow without end, and to read that tree back.
+    """
+    read = False
     try:
-        bind(load_grammar(Source("hostile.grammar", text)), vocabulary)
+        grammar = load_grammar(Source("hostile.grammar", text))
+        read = True
+        bound = bind(grammar, vocabulary)
     except GrammarFileError as error:
         error.render()
-        return error.diagnostics[0].code
-    return "bound"
+        return error.diagnostics[0].code, read
+    try:
+        tree = bound.tree(bound.derive(bound.sample(np.random.default_rng(0))))
+        parse_tree(bound, tree)
+    except GrammarFileError as error:
+        return error.diagnostics[0].code, True
+    except NotInLanguageError:
+        raise
+    except GrammarError:
+        return "bound, but endless", True
+    return "bound", True

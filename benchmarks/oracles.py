@@ -1,8 +1,8 @@
-"""Ticks random trees here, in py_trees and in BehaviorTree.CPP, and counts the ticks in which anything differs.
+"""Ticks random trees in the flat form, from generated source, in py_trees and in BehaviorTree.CPP, and counts differences.
 
     python benchmarks/oracles.py --ticks 200000
 
-Compared in each tick: the root's status, the leaves in the order ticked, the status of every node ticked, the actions
+Compared with the flat form in each tick: the root's status, the leaves in the order ticked, the status of every node ticked, the actions
 started and the actions halted.
 """
 
@@ -17,7 +17,7 @@ import numpy as np
 from engines import BehaviorTreeCpp, Console, Ours, PyTrees, has_parallel
 from random_trees import arbitrary, flattened, paper_shaped
 
-from grammarbt.bt import Action, BehaviorTree, Status, format_tree, leaves
+from grammarbt.bt import Action, BehaviorTree, Status, compile_source, format_tree, leaves
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,6 +52,7 @@ def compare(ticks: int, seed: int, console: Console, counts: Counter[str]) -> li
         counts["trees with parallel nodes"] += has_parallel(tree)
         counts["ticks"] += len(answers)
         pairs = {
+            "generated source": (Ours(tree), Ours(tree, once=compile_source(tree))),
             "py_trees": (Ours(tree), PyTrees(tree)),
             "BehaviorTree.CPP": (Ours(tree, forgets=has_parallel(tree)), BehaviorTreeCpp(tree, console)),
         }
@@ -74,7 +75,11 @@ def _random_answers(rng: np.random.Generator, tree: BehaviorTree) -> list[Status
 
 
 def _count_differences(
-    name: str, ours: Ours, other: PyTrees | BehaviorTreeCpp, answers: Sequence[Sequence[Status]], counts: Counter[str]
+    name: str,
+    ours: Ours,
+    other: Ours | PyTrees | BehaviorTreeCpp,
+    answers: Sequence[Sequence[Status]],
+    counts: Counter[str],
 ) -> int:
     differences = 0
     for row in answers:

@@ -173,9 +173,9 @@ def test_keys_are_the_same_in_every_process():
 def test_a_graph_that_would_grow_too_large_falls_back_to_level_one_quickly():
     pairs = " ".join(f"→( (a{i}) (b{i}) )" for i in range(40))
     tree = parse(f"?( {pairs} [x] )")
-    begin = time.perf_counter()
+    begin = time.process_time()
     key = canonical_key(tree)
-    assert time.perf_counter() - begin < 1
+    assert time.process_time() - begin < 1
     assert key == canonical_key(tree, none_pure)
     assert key.count(b"\n") < MAX_NODES
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import re
+import struct
 from itertools import pairwise
 from xml.etree import ElementTree as ET
 
@@ -10,9 +12,10 @@ import pydot
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from pypdf import PdfReader
 
 from grammarbt.bt import Action, Condition, Fallback, format_tree, parse, walk
-from grammarbt.bt.formats import dot, mermaid, png, svg
+from grammarbt.bt.formats import dot, mermaid, plot, svg
 from grammarbt.bt.layout import GAP, HEIGHT, lay_out
 
 
@@ -67,9 +70,22 @@ def test_mermaid_escapes_all_that_means_something():
 
 
 def test_png_draws_any_name_without_a_warning():
-    assert png.dumps(AWKWARD).startswith(b"\x89PNG")
+    assert plot.png(AWKWARD).startswith(b"\x89PNG")
+
+
+def test_pdf_holds_the_names_as_text_and_is_the_same_every_time():
+    data = plot.pdf(AWKWARD)
+    (page,) = PdfReader(io.BytesIO(data)).pages
+    shown = page.extract_text()
+    assert all(leaf.name in shown for leaf in AWKWARD.children[:4])
+    assert not page.images
+    assert plot.pdf(AWKWARD) == data
 
 
 def test_very_wide_trees_are_drawn():
     wide = parse("?( " + "[some long action name] " * 200 + ")")
-    assert len(png.dumps(wide)) > 1000
+    width, height = struct.unpack(">II", plot.png(wide)[16:24])
+    assert width == 20_000
+    assert height > 0
+    (page,) = PdfReader(io.BytesIO(plot.pdf(wide))).pages
+    assert page.mediabox.width == pytest.approx(10_000, abs=1)

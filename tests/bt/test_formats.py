@@ -50,7 +50,7 @@ def test_every_format_writes_the_deepest_tree(spec):
 def test_formats_have_the_names_that_users_type():
     assert [spec.name for spec in FORMATS] == [
         *("notation", "tree", "btcpp", "py_trees", "py_trees_xml", "json", "strings"),
-        *("dot", "mermaid", "svg", "png"),
+        *("dot", "mermaid", "svg", "png", "pdf"),
     ]
 
 

@@ -65,10 +65,10 @@ HOSTILE = {
 @pytest.mark.parametrize("name", HOSTILE)
 @pytest.mark.parametrize("spec", TWO_WAY, ids=lambda spec: spec.name)
 def test_hostile_input_is_refused_in_one_line(spec, name):
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(GrammarBTError) as caught:
         call(spec.importer)(HOSTILE[name])
-    assert time.perf_counter() - begin < 2
+    assert time.process_time() - begin < 2
     assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 400
 

@@ -129,10 +129,10 @@ def test_a_tree_may_be_as_deep_as_allowed_and_no_deeper():
     ],
 )
 def test_hostile_text_is_refused_fast(text):
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(NotationError) as caught:
         parse(text)
-    assert time.perf_counter() - begin < 1
+    assert time.process_time() - begin < 1
     assert len(str(caught.value)) < 300
 
 

@@ -91,10 +91,10 @@ def test_nested_parallels_end_in_an_error_and_not_in_an_explosion():
     tree = Action("a")
     for _ in range(6):
         tree = Parallel((tree,) * 5, 3)
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(DomainError, match="unroll to more than 100,000 steps"):
         flatten(tree)
-    assert time.perf_counter() - begin < 5
+    assert time.process_time() - begin < 5
 
 
 def test_a_parallel_of_many_children_compiles():
@@ -106,7 +106,7 @@ def test_compiling_a_tree_of_twenty_nodes_takes_less_than_100_microseconds():
     tree = parse("?( →( (a) (b) [x] ) →( !(c) ?( (d) [y] ) [z] ) →( (e) (f) [v] ) [w] →( (g) [u] ) )")
     seconds = []
     for _ in range(300):
-        begin = time.perf_counter()
+        begin = time.process_time()
         flatten(tree)
-        seconds.append(time.perf_counter() - begin)
+        seconds.append(time.process_time() - begin)
     assert min(seconds) < 100e-6

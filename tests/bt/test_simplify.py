@@ -56,7 +56,7 @@ def test_what_holds_only_for_pure_conditions_is_left_alone_for_others():
 
 def test_a_large_tree_is_simplified_within_seconds():
     plain = parse(f"?( {S3_HAND} {S3_HAND} )")
-    begin = time.perf_counter()
+    begin = time.process_time()
     simple = simplify(parse(f"?( !( !( {S3_HAND} ) ) ?( →( {S3_HAND} ) ) )"))
-    assert time.perf_counter() - begin < 5
+    assert time.process_time() - begin < 5
     assert size(simple) <= size(simplify(plain)) < size(plain)

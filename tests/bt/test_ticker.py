@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from grammarbt.bt import Action, Condition, Not, Parallel, Sequence, Status, flatten, format_tree, leaves, parse, tick
 from grammarbt.bt.generate import compile_source, generate_source
 from grammarbt.bt.linked import ticker
-from grammarbt.errors import DomainError
 
 
 class Recording:
@@ -72,10 +71,14 @@ def test_statuses_may_be_given_instead_of_numbers():
     assert ticker(flatten(tree))(answers) is compile_source(tree)(answers) is Status.RUNNING
 
 
-def test_parallel_nodes_nested_too_deeply_for_source_are_an_error():
+def test_parallel_nodes_as_deep_as_allowed_are_generated():
     tree = Action("a")
     for _ in range(255):
         tree = Parallel((tree,), 1)
-    with pytest.raises(DomainError, match="nested too deeply"):
-        compile_source(tree)
-    assert ticker(flatten(tree))([Status.SUCCESS]) is Status.SUCCESS
+    for status in Status:
+        assert compile_source(tree)([status]) is ticker(flatten(tree))([status]) is status
+
+
+def test_a_long_row_of_actions_is_generated():
+    tree = Sequence(tuple(Action(f"a{number}") for number in range(1_000)))
+    assert compile_source(tree)([1] * 999 + [2]) is Status.RUNNING

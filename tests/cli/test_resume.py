@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -17,8 +18,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grammarbt.cli import main
-from grammarbt.run.folder import RunFolder
-from grammarbt.run.journal import read_journal
+from grammarbt.run import snapshot
+from grammarbt.run.folder import RunFolder, read_sealed, save_sealed
+from grammarbt.run.journal import Journal, read_journal
+from grammarbt.search.random import RandomSearch
 
 CORRIDOR = f"{Path(__file__).parents[2] / 'docs' / 'examples' / 'corridor.py'}:Corridor"
 MARINE = ("--domain", "marine", "--budget", "400", "--validation", "20", "--batch", "7", "--seed", "3")
@@ -119,7 +122,7 @@ def test_a_searcher_that_proposes_otherwise_is_an_error_naming_the_trial(copy, c
 
 
 def test_a_changed_grammar_is_named(copy, capsys):
-    rewrite_resolved(copy, lambda resolved: resolved["grammar"].update(text="other"))
+    rewrite_resolved(copy, lambda resolved: resolved["grammar"].update(fingerprint="other"))
     assert main(["resume", str(copy), "--quiet"]) == 2
     assert "the grammar of" in capsys.readouterr().err
 
@@ -156,6 +159,146 @@ def test_a_run_of_workers_is_resumed_by_workers(finished, tmp_path):
     (folder / "journal.jsonl").write_bytes(whole[: len(whole) // 2])
     grammarbt("resume", str(folder))
     assert journal(folder) == whole
+
+
+def test_workers_and_executor_may_change_and_the_bytes_do_not(finished, copy):
+    whole = journal(finished)
+    for options in (("--workers", "2"), ("--executor", "processes"), ("--workers", "1", "--executor", "serial")):
+        (copy / "journal.jsonl").write_bytes(whole[: len(whole) // 3])
+        grammarbt("resume", str(copy), *options)
+        assert journal(copy) == whole
+
+
+def test_settings_of_one_executor_do_not_follow_to_another(finished, tmp_path):
+    limit = ("--workers", "2", "--set", "executor.timeout=9")
+    folder = run(tmp_path / "run", *SMALL, "--budget", "60", *limit)
+    (folder / "journal.jsonl").write_bytes(journal(finished)[:900])
+    grammarbt("resume", str(folder), "--workers", "1", "--executor", "serial")
+    assert journal(folder) == journal(finished)
+
+
+def test_only_the_executor_takes_settings(copy, capsys):
+    assert main(["resume", str(copy), "--set", "searcher.c=1"]) == 2
+    assert "executor" in capsys.readouterr().err
+
+
+def test_a_run_with_relative_paths_goes_on_from_another_directory(tmp_path, monkeypatch):
+    there, elsewhere = tmp_path / "there", tmp_path / "elsewhere"
+    there.mkdir()
+    elsewhere.mkdir()
+    shutil.copy(CORRIDOR.partition(":")[0], there / "mine.py")
+    (there / "start.tree").write_text("?( →( (holding cup) [go to door] ) →( [go to cup] [grasp] ) )")
+    monkeypatch.chdir(there)
+    relative = ("--domain", "mine.py:Corridor", "--start", "start.tree", *SMALL[2:], "--budget", "60")
+    whole = journal(run("run", *relative) and there / "run")
+    (there / "run" / "journal.jsonl").write_bytes(whole[: len(whole) // 2])
+    monkeypatch.chdir(elsewhere)
+    grammarbt("resume", "../there/run")
+    assert journal(there / "run") == whole
+    assert Path.cwd() == elsewhere
+
+
+def test_a_domain_file_that_was_edited_is_one_line_of_warning(tmp_path, capsys):
+    file = tmp_path / "mine.py"
+    shutil.copy(CORRIDOR.partition(":")[0], file)
+    folder = run(tmp_path / "run", "--domain", f"{file}:Corridor", *SMALL[2:], "--budget", "60")
+    capsys.readouterr()
+    file.write_text(file.read_text(encoding="utf-8") + "\n# a thought\n", encoding="utf-8")
+    grammarbt("resume", str(folder))
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("warning: versions differ")
+    assert str(file) in line
+
+
+def test_the_clock_of_a_run_counts_on(tmp_path):
+    folder = run(tmp_path / "run", *SMALL, "--budget", "60", "--seconds", "1000")
+    whole = journal(folder)
+    (folder / "journal.jsonl").write_bytes(b"".join(whole.splitlines(keepends=True)[:10]))
+    (folder / "timing.jsonl").write_text('{"batch":1,"episodes":7,"seconds":5000.0}\n{"batch":2,"epi')
+    grammarbt("resume", str(folder))
+    (searched,) = (event for event in read_journal(folder / "journal.jsonl") if event["event"] == "searched")
+    assert searched["stopped"] == "seconds"
+    assert searched["trials"] < 60
+    grammarbt("resume", str(folder))
+
+
+def test_a_run_in_use_is_refused_in_one_line(copy, capsys):
+    before = journal(copy)
+    with closing(Journal.open(copy / "journal.jsonl")):
+        assert main(["resume", str(copy), "--quiet"]) == 2
+    assert "in use by another run" in capsys.readouterr().err.splitlines()[0]
+    assert journal(copy) == before
+
+
+SNAPS = ("--domain", CORRIDOR, "--searcher", "random", "--validation", "20", "--seed", "3", "--batch", "7")
+
+
+@pytest.fixture
+def snapped(tmp_path, monkeypatch):
+    """A run that made a snapshot after every batch, cut off in its selection, and its whole journal."""
+    monkeypatch.setattr(snapshot, "SHARE", float("inf"))
+    spec = tmp_path / "spec.toml"
+    spec.write_text("snapshot = 0.0\nbudget = 200\n")
+    folder = run(tmp_path / "snapped", str(spec), *SNAPS)
+    whole = journal(folder)
+    (folder / "journal.jsonl").write_bytes(whole[: len(whole) - 900])
+    return folder, whole
+
+
+def position(folder):
+    return json.loads((folder / "snapshot.json").read_text(encoding="utf-8"))["position"]
+
+
+def test_a_snapshot_shortens_the_replay_and_gives_the_same_bytes(snapped, monkeypatch):
+    folder, whole = snapped
+    begun = position(folder)["events"]
+    asked = []
+    ask = RandomSearch.ask
+    monkeypatch.setattr(RandomSearch, "ask", lambda self, n: asked.append(n) or ask(self, n))
+    grammarbt("resume", str(folder))
+    assert journal(folder) == whole
+    assert begun > 100
+    assert sum(asked) < 50
+    (folder / "snapshot.json").unlink()
+    (folder / "journal.jsonl").write_bytes(whole[: len(whole) - 900])
+    grammarbt("resume", str(folder))
+    assert journal(folder) == whole
+    assert sum(asked) > 150
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (lambda state: state.pop("tally"), "damaged"),
+        (lambda state: state["versions"].update(numpy="0.1"), "other versions"),
+        (lambda state: state["position"].update(events=3), "does not belong"),
+        (lambda state: state["position"].update(size=10**9, events=10**6), "does not belong"),
+    ],
+)
+def test_a_snapshot_that_cannot_be_used_is_ignored_with_a_warning(snapped, capsys, change, reason):
+    folder, whole = snapped
+    capsys.readouterr()
+    state = dict(read_sealed(folder / "snapshot.json"))
+    change(state)
+    save_sealed(folder / "snapshot.json", state)
+    grammarbt("resume", str(folder))
+    (line,) = capsys.readouterr().err.splitlines()
+    assert reason in line
+    assert journal(folder) == whole
+
+
+def test_a_snapshot_that_outlived_its_journal_is_ignored(snapped, capsys):
+    folder, whole = snapped
+    (folder / "journal.jsonl").write_bytes(whole[:2000])
+    grammarbt("resume", str(folder))
+    assert "does not belong" in capsys.readouterr().err
+    assert journal(folder) == whole
+
+
+def test_a_larger_budget_takes_no_notice_of_a_snapshot(snapped, tmp_path):
+    folder, _ = snapped
+    grammarbt("resume", str(folder), "--budget", "300")
+    assert journal(folder) == journal(run(tmp_path / "larger", *SNAPS, "--budget", "300"))
 
 
 def damage(data, content):

@@ -105,6 +105,7 @@ def test_smallest_word_is_as_small_as_any_sampled_one(bound, name):
         ('start: "?" "(" ACTION [start] ")"\n%limit depth 9\n', True),
         ('start: "?" "(" ACTION+ ")"\n%unique ACTION in start\n', True),
         ('start: "?" "(" (ACTION | CONDITION)+ ")"\n%unique ACTION in start\n', False),
+        ('start: "?" "(" (ACTION | CONDITION)+ ")"\n%unique ACTION in start\n%unique CONDITION in start\n', True),
         ('start: "?" "(" part+ ")"\npart: "→" "(" ACTION+ ")"\n%unique ACTION in part\n', False),
         ('start: "?" "(" part ")"\npart: "→" "(" ACTION [part] ")"\n%unique ACTION in part\n', True),
     ],

@@ -7,10 +7,10 @@ import pytest
 from attrs import frozen
 
 from grammarbt.bt import format_tree, parse
-from grammarbt.bt.model import Action, Condition
-from grammarbt.bt.notation import BracketToken, OperatorToken, operator, tokens
+from grammarbt.bt.model import Action
+from grammarbt.bt.notation import tokens
 from grammarbt.bt.vocabulary import ActionType, ConditionType, Group, Vocabulary
-from grammarbt.grammar import bind, load_grammar, shipped_grammars
+from grammarbt.grammar import NotInLanguageError, bind, load_grammar, parse_tree, shipped_grammars
 
 NAMES = sorted(shipped_grammars())
 CORPUS = Path(__file__).parents[2] / "grammars" / "corpus"
@@ -54,32 +54,15 @@ def corpus_of(request):
     return corpus, bind(load_grammar(shipped_grammars()[request.param]), corpus.vocabulary)
 
 
-def spelt(tree):
-    """The tokens of a tree as grammars write them, with parentheses around every operator's children."""
-    if isinstance(tree, Action | Condition):
-        return [tree]
-    children = getattr(tree, "children", None) or (tree.child,)
-    inside = [token for child in children for token in spelt(child)]
-    return [OperatorToken(operator(tree)), BracketToken("("), *inside, BracketToken(")")]
-
-
 def belongs(grammar, text):
-    """Walk all leftmost derivations that agree with the word."""
-    number = {token: at for at, token in enumerate(grammar.terminals)}
-    word = tuple(number.get(token, -1) for token in spelt(parse(text)))
-    seen, queue = set(), [(0, grammar.start())]
-    while queue:
-        at, state = queue.pop()
-        if (at, state) in seen:
-            continue
-        seen.add((at, state))
-        if not state.symbols and at == len(word):
-            return True
-        for move in grammar.leftmost.moves(state):
-            end = at + len(move.emits)
-            if word[at:end] == move.emits:
-                queue.append((end, move.after))
-    return False
+    """Whether the reader of trees finds a derivation, and it spells the same tree."""
+    tree = parse(text)
+    try:
+        derivation = parse_tree(grammar, tree)
+    except NotInLanguageError:
+        return False
+    assert grammar.tree(grammar.derive(derivation)) == tree
+    return True
 
 
 def test_every_shipped_grammar_has_a_corpus():

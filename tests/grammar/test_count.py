@@ -14,6 +14,7 @@ from grammarbt.grammar import Source, bind, load_grammar, shipped_grammars
 from grammarbt.grammar.automaton import Language
 from grammarbt.grammar.count import Count, Counter, distinct_words
 from grammarbt.grammar.paths import InfiniteLanguageError, TooLargeError
+from grammarbt.grammar.uniform import Uniform
 
 OVERLAPPING = """
 %declare ACTION CONDITION
@@ -120,13 +121,52 @@ def test_infinite_languages_are_told_apart_at_once(vocabulary, rule):
 
 
 def test_a_language_too_large_to_count_is_an_error_and_not_a_stall(vocabulary, monkeypatch):
-    monkeypatch.setattr("grammarbt.grammar.paths.MAX_NODES", 200)
+    monkeypatch.setattr("grammarbt.grammar.paths.MAX_NODES", 20)
     text = '%declare ACTION\n%unique ACTION in start\nstart: "?" "(" ACTION+ ")"\n'
     huge = language(text, vocabulary((30, 0)))
-    with pytest.raises(TooLargeError, match="passes 200 nodes") as caught:
+    with pytest.raises(TooLargeError, match="passes 20 nodes") as caught:
         Counter(huge).words(huge.bound.start_symbol)
     assert isinstance(caught.value, GrammarError)
     assert Counter(huge).count(huge.bound.start_symbol) == Count(None, None, None)
+
+
+def test_graphs_for_counting_merge_leaves_that_are_alike_and_count_the_same(bound):
+    grammar = bound("marine", (3, 3), (1, 1))
+    language = Language(grammar)
+    for exact, merged in (
+        (language.words, language.words_to_count),
+        (language.derivations, language.derivations_to_count),
+    ):
+        assert len(merged(grammar.blocks[0]).edges) < len(exact(grammar.blocks[0]).edges) / 3
+    counter = Counter(Language(grammar))
+    assert counter.words(grammar.blocks[0]) == sum(1 for _ in distinct_words(language, grammar.blocks[0]))
+    assert counter.derivations(grammar.blocks[0]) == Uniform(language, grammar.blocks[0], derivations=True).total
+
+
+MIXED = """
+%declare ACTION CONDITION
+%unique ACTION in start
+%unique ACTION CONDITION in part
+start: "?" "(" part part ACTION ")"
+part: "→" "(" guard* (ACTION | "[a1.0]") ")" | "→" "(" "[a1.1]" guard ")"
+guard: CONDITION | "!" "(" CONDITION ")"
+"""
+"""Some leaves are alike, others are named; scopes lie in one another."""
+
+
+@pytest.mark.parametrize("sizes", [((3, 2),), ((4, 1),), ((2, 2), (1, 0))])
+def test_leaves_that_the_grammar_names_are_not_taken_for_others(vocabulary, sizes):
+    counted = language(MIXED, vocabulary(*sizes))
+    start = counted.bound.start_symbol
+    assert len(counted.symmetry.classes) >= 1
+    assert Counter(counted).count(start) == brute_force(counted.bound, start)
+
+
+def test_a_group_of_five_actions_and_five_conditions_is_counted_and_its_behaviours_are_too_many(bound):
+    grammar = bound("scheide", (5, 5), (5, 5))
+    counter = Counter(Language(grammar))
+    assert list(counter.groups().values()) == [Count(383_258_045, 324_377_065, None)] * 2
+    assert counter.count(grammar.start_symbol).words == 2 * 324_377_065**2
 
 
 def test_derivations_of_the_whole_language_follow_from_the_blocks(bound):

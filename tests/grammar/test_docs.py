@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from grammarbt.bt import format_tree, parse
+from grammarbt.bt.model import MAX_DEPTH
 from grammarbt.bt.vocabulary import ActionType, ConditionType, Group, Vocabulary
-from grammarbt.grammar import Source, bind, expand, imports, load_grammar, reader
+from grammarbt.grammar import Source, bind, count, expand, imports, leftmost, load_grammar, paths, reader
 from grammarbt.grammar.check import check_source
 
 ROOT = Path(__file__).parents[2]
@@ -90,4 +91,13 @@ def test_page_marks_warnings_as_such(code, domain, text, rendering):
 def test_limits_named_on_the_pages_are_those_of_the_source():
     numbers = [reader.MAX_CHARACTERS, reader.MAX_TOKENS, reader.MAX_NESTING, expand.MAX_PRODUCTIONS, expand.MAX_SYMBOLS]
     assert [n for n in numbers if f"{n:,}" not in GRAMMAR_PAGE or f"{n:,}" not in DIAGNOSTICS_PAGE] == []
+    limits = [
+        leftmost.MAX_UNFINISHED,
+        leftmost.MAX_STEPS,
+        paths.MAX_NODES,
+        paths.MAX_STEPS,
+        count.MAX_LISTED,
+        MAX_DEPTH,
+    ]
+    assert [n for n in limits if f"{n:,}" not in GRAMMAR_PAGE] == []
     assert f"{imports.MAX_FILES} files, {imports.MAX_CHAIN} in a chain" in DIAGNOSTICS_PAGE

@@ -10,8 +10,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grammarbt.bt import format_tree, parse
-from grammarbt.grammar import GrammarFileError, Source, bind, load_grammar, shipped_grammars
+from grammarbt.bt import format_tree, parse, walk
+from grammarbt.errors import GrammarError
+from grammarbt.grammar import GrammarFileError, Source, bind, load_grammar, parse_tree, shipped_grammars
 from grammarbt.grammar.check import check_source
 
 
@@ -101,21 +102,76 @@ def test_checking_an_explosive_text_ends_soon(name, text):
     assert process_time() - begin < 5 * SECONDS
 
 
-def test_a_derivation_may_have_five_hundred_nodes():
-    text = '%declare ACTION\nstart: "→" "(" ACTION~500 ")"\n'
-    wide = diagnose(text)
-    tree = wide.tree(wide.derive(wide.sample(np.random.default_rng(0))))
-    assert len(tree.children) == 500
+@pytest.mark.parametrize("rule", ['start: "?"', 'start: sign\nsign: "→" | "!"\n', 'start: "!" | "→"'])
+def test_an_operator_alone_is_no_tree(rule):
+    report = check_source(Source("x.grammar", f"{rule}\n"), hostile.VOCABULARY)
+    assert {finding.code for finding in report.errors} == {"G303"}
+
+
+ENDLESS = '%declare ACTION\nstart: "?" "(" start start start ")" | ACTION\n'
+
+
+def test_a_random_tree_that_grows_without_end_is_an_error_that_says_what_to_do():
+    grammar = diagnose(ENDLESS)
+    error = next(filter(None, (outcome_of(grammar, seed) for seed in range(20))))
+    assert error.startswith("x.grammar: a random tree passes")
+    assert "%limit nodes" in error
+
+
+def outcome_of(grammar, seed):
+    """The error of a random derivation, if there is one."""
+    try:
+        grammar.sample(np.random.default_rng(seed))
+    except GrammarError as error:
+        return str(error)
+    return ""
+
+
+def test_forgetting_states_to_bound_the_memory_changes_no_derivation(monkeypatch):
+    monkeypatch.setattr("grammarbt.grammar.leftmost.MAX_KEPT", 2_000)
+    monkeypatch.setattr("grammarbt.grammar.completion.MAX_KEPT", 2_000)
+    grammar = diagnose(ENDLESS + "%limit nodes 200\n")
+    fresh = diagnose(ENDLESS + "%limit nodes 200\n")
+    for seed in range(5):
+        derivation = grammar.sample(np.random.default_rng(seed))
+        assert fresh.derive(derivation) == grammar.derive(derivation)
+
+
+def test_constraints_too_entangled_to_derive_from_are_shown_at_their_place(monkeypatch):
+    text = '%declare ACTION CONDITION\n%unique ACTION CONDITION in start\nstart: "?" "(" leaf~4 ")"\nleaf: ACTION | CONDITION\n'
+    grammar = diagnose(text)
+    monkeypatch.setattr("grammarbt.grammar.needs.MAX_STEPS", 0)
+    with pytest.raises(GrammarFileError) as caught:
+        grammar.sample(np.random.default_rng(0))
+    (finding,) = caught.value.diagnostics
+    assert (finding.code, finding.place) == ("G406", "x.grammar:2:1")
+    assert finding.notes[0].startswith("to be finished: ")
+    assert finding.help
+
+
+SHAPES = {
+    "wide": 'start: "→" "(" ACTION~500 ")"',
+    "deep": '%limit depth 256\nstart: "→" "(" ACTION start ")" @ 1000000 | ACTION',
+    "deep with other limits": "%limit nodes 520\n%limit depth 256\n%unique CONDITION in start\n"
+    'start: "→" "(" ACTION start ")" @ 1000000 | "→" "(" CONDITION ACTION ")"',
+    "both": '%limit depth 200\nstart: "?" "(" "!" "(" start ")" ACTION~4 ")" @ 1000000 | ACTION',
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_trees_of_five_hundred_nodes_are_sampled_derived_built_printed_and_parsed(shape):
+    grammar = diagnose(f"%declare ACTION CONDITION\n{SHAPES[shape]}\n")
+    derivation = grammar.sample(np.random.default_rng(0))
+    tree = grammar.tree(grammar.derive(derivation))
+    assert sum(1 for _ in walk(tree)) >= 500
     assert parse(format_tree(tree)) == tree
+    assert grammar.derive(parse_tree(grammar, tree)) == grammar.derive(derivation)
 
 
-def test_derivations_of_five_hundred_steps_into_the_depth_do_not_overflow_the_stack():
-    deep = diagnose('%declare ACTION\nstart: "→" "(" ACTION start ")" | ACTION\n')
-    deeper, (leaf, *_) = (
-        (move.production for move in deep.leftmost.moves(deep.start())),
-        deep.by_lhs[next(symbol for symbol in deep.by_lhs if deep.nonterminal_name(symbol) == "ACTION")],
-    )
-    grow, stop = deeper
-    derivation = (grow, leaf.number) * 250 + (stop, leaf.number)
-    form = deep.derive(derivation)
-    assert deep.text(form).count("[") == 251
+def test_a_tree_deeper_than_trees_can_be_is_an_error_and_no_overflow():
+    grammar = diagnose('%declare ACTION\nstart: "→" "(" ACTION start ")" @ 1000000 | ACTION\n%limit nodes 600\n')
+    form = grammar.derive(grammar.sample(np.random.default_rng(0)))
+    assert grammar.text(form).count("[") > 256
+    with pytest.raises(GrammarError, match="deeper than 256 levels") as caught:
+        grammar.tree(form)
+    assert caught.value.hint.startswith("add `%limit depth 256`")

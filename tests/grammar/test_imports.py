@@ -3,7 +3,7 @@
 import pytest
 
 from grammarbt.bt import format_tree
-from grammarbt.grammar import GrammarFileError, Source, bind, load_grammar, read_grammar
+from grammarbt.grammar import GrammarFileError, Source, bind, bundled, load_grammar, read_grammar, read_source
 
 HEAD = "%declare ACTION CONDITION\n"
 
@@ -132,3 +132,25 @@ def test_files_that_import_each_other_many_times_stay_small(folder, vocabulary):
     grammar = folder(main='%import .a0.x\nstart: "?" "(" x ")"\n', **files, **ends)
     assert len(grammar.rules) == 3 * levels + 2
     assert bind(grammar, vocabulary((1, 0))).productions
+
+
+def test_a_bundle_is_the_same_language_without_the_files(folder, tmp_path, vocabulary):
+    files = {
+        "main": '%import .general (part)\n%import general.check\nstart: "?" "(" part check ")"\n',
+        "general": "%import .last.leaf\npart: leaf\n",
+        "last": HEAD + "leaf: ACTION\n",
+    }
+    before = bind(folder(**files), vocabulary((2, 1)))
+    bundle = bundled(read_source(tmp_path / "main.grammar"))
+    for name in files:
+        (tmp_path / f"{name}.grammar").unlink()
+    assert bundle.neighbours == {name: files[name] for name in ("general", "last")}
+    assert bind(load_grammar(bundle), vocabulary((2, 1))).fingerprint == before.fingerprint
+
+
+def test_a_bundle_without_a_neighbour_says_which_one():
+    source = Source("x.grammar", "%import .gone.leaf\nstart: leaf\n", neighbours={})
+    with pytest.raises(GrammarFileError) as error:
+        load_grammar(source)
+    assert codes(error) == ["G106"]
+    assert "`gone.grammar` was not kept" in error.value.render()

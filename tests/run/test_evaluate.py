@@ -5,7 +5,6 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grammarbt.bt import parse
 from grammarbt.domain import Outcome
 from grammarbt.run.evaluate import Evaluator
 
@@ -98,11 +97,15 @@ def test_an_interruption_passes_through(broken, proposal):
         Evaluator(broken(interrupted), 0).evaluate([proposal("[light left]")], 10)
 
 
-def test_known_returns_stand_in_the_order_simulated(lamps, proposal):
+def test_a_trial_says_what_all_returns_of_its_tree_come_to(lamps, proposal):
     evaluator = Evaluator(lamps(), 0)
-    late = evaluator.evaluate([proposal("[light left]", 5, 6)], 10)[0].evaluation.returns
-    early = evaluator.evaluate([proposal("[light left]", 0, 1)], 10)[0].evaluation.returns
-    assert evaluator.known(parse("[light left]")) == late + early
+    late, early, both = (
+        evaluator.evaluate([proposal("[light left]", *span)], 10)[0] for span in ((4, 6), (0, 1), (0, 6))
+    )
+    assert (late.fresh, early.fresh) == (late.evaluation.returns, early.evaluation.returns)
+    assert [trial.episodes for trial in (late, early, both)] == [2, 3, 6]
+    assert early.mean == pytest.approx(sum(late.fresh + early.fresh) / 3)
+    assert both.mean == pytest.approx(both.evaluation.mean)
 
 
 @pytest.fixture

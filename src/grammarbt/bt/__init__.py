@@ -20,8 +20,11 @@ from grammarbt.bt.model import (
     children,
     depth,
     leaves,
+    numbered,
     rebuild,
     walk,
+    with_children,
+    without,
 )
 from grammarbt.bt.notation import format_leaf, format_tree, parse
 from grammarbt.bt.policy import Entry, FlatTree, Policy, compile_policy, flatten, tick
@@ -65,9 +68,12 @@ __all__ = [
     "leaves",
     "node_statuses",
     "none_pure",
+    "numbered",
     "parse",
     "rebuild",
     "tick",
     "ticker",
     "walk",
+    "with_children",
+    "without",
 ]

@@ -6,7 +6,7 @@ from unicodedata import east_asian_width
 
 from attrs import frozen
 
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, children
+from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, numbered
 from grammarbt.bt.notation import leaf_text, operator
 
 HEIGHT, GAP, LEVEL = 30.0, 16.0, 62.0
@@ -42,17 +42,6 @@ class Drawing:
     nodes: tuple[Placed, ...]
     width: float
     height: float
-
-
-def numbered(tree: BehaviorTree) -> list[tuple[Node, int | None]]:
-    """All nodes in pre-order, each with its parent's place in the list."""
-    found: list[tuple[Node, int | None]] = []
-    stack: list[tuple[Node, int | None]] = [(tree, None)]
-    while stack:
-        node, parent = stack.pop()
-        stack += [(child, len(found)) for child in reversed(children(node))]
-        found.append((node, parent))
-    return found
 
 
 def lay_out(tree: BehaviorTree) -> Drawing:

@@ -7,6 +7,7 @@ parallel are control nodes, not is the decorator, actions and conditions are lea
 from __future__ import annotations
 
 import re
+from itertools import count
 from reprlib import repr as shortened
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -15,7 +16,7 @@ from attrs import Attribute, field, frozen
 from grammarbt.errors import NotationError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Container, Iterator
 
 MAX_DEPTH = 256
 """Levels of the deepest tree; BehaviorTree.CPP refuses more, and no reader gets lost in fewer."""
@@ -130,6 +131,17 @@ def walk(tree: BehaviorTree) -> Iterator[Node]:
         stack.extend(reversed(children(node)))
 
 
+def numbered(tree: BehaviorTree) -> list[tuple[Node, int | None]]:
+    """All nodes in pre-order, each with its parent's place in that order; the root has None."""
+    found: list[tuple[Node, int | None]] = []
+    stack: list[tuple[Node, int | None]] = [(tree, None)]
+    while stack:
+        node, parent = stack.pop()
+        stack += [(child, len(found)) for child in reversed(children(node))]
+        found.append((node, parent))
+    return found
+
+
 def leaves(tree: BehaviorTree) -> tuple[Leaf, ...]:
     """All leaves, left to right; a leaf's place here is its *occurrence*."""
     return tuple(node for node in walk(tree) if isinstance(node, Action | Condition))
@@ -145,13 +157,32 @@ def depth(tree: BehaviorTree) -> int:
     return deepest
 
 
+def with_children(node: Node, parts: tuple[Node, ...]) -> Node:
+    """The node with other children; a parallel node never waits for more successes than it has children."""
+    if isinstance(node, Not):
+        return Not(parts[0])
+    if isinstance(node, Action | Condition):
+        return node
+    if isinstance(node, Parallel):
+        return Parallel(parts, min(node.successes, len(parts)))
+    return type(node)(parts)
+
+
 def rebuild(tree: BehaviorTree, change: Callable[[Node], Node]) -> BehaviorTree:
     """The tree with `change` applied to every node, children first."""
-    if isinstance(tree, Not):
-        return change(Not(rebuild(tree.child, change)))
-    if isinstance(tree, Action | Condition):
-        return change(tree)
-    parts = tuple(rebuild(child, change) for child in tree.children)
-    if isinstance(tree, Parallel):
-        return change(Parallel(parts, tree.successes))
-    return change(type(tree)(parts))
+    return change(with_children(tree, tuple(rebuild(child, change) for child in children(tree))))
+
+
+def without(tree: BehaviorTree, gone: Container[int]) -> BehaviorTree | None:
+    """The tree without the nodes at some places in pre-order, and what is empty then; None when nothing is left."""
+    places = count()
+
+    def kept(node: Node) -> Node | None:
+        place = next(places)
+        parts = [kept(child) for child in children(node)]
+        left = tuple(part for part in parts if part is not None)
+        if place in gone or (parts and not left):
+            return None
+        return with_children(node, left)
+
+    return kept(tree)

@@ -20,7 +20,7 @@ from grammarbt.bt.status import Status
 from grammarbt.errors import DomainError, did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
 IntArray: TypeAlias = NDArray[np.int32]
 
@@ -83,8 +83,8 @@ def flatten(tree: BehaviorTree) -> FlatTree:
     Raises:
         DomainError: nested parallel nodes need more than `MAX_ENTRIES` entries.
     """
-    flattener = _Flattener()
-    return flattener.flat(flattener.start(tree))
+    flattener = _Flattener(tree)
+    return FlatTree(tuple(Entry(*row) for row in flattener.rows()), 0, flattener.occurrences)
 
 
 def compile_policy(tree: BehaviorTree, index: Mapping[Leaf, int]) -> Policy:
@@ -93,13 +93,13 @@ def compile_policy(tree: BehaviorTree, index: Mapping[Leaf, int]) -> Policy:
     Raises:
         DomainError: the tree uses a leaf that the domain does not have.
     """
-    flat = flatten(tree)
+    flattener = _Flattener(tree)
     rows = [
-        (_number(entry.leaf, index), entry.occurrence, entry.on_success, entry.on_failure, entry.on_running)
-        for entry in flat.entries
+        (_number(leaf, index), at, success, failure, running)
+        for leaf, at, success, failure, running in flattener.rows()
     ]
     leaf, occurrence, on_success, on_failure, on_running = np.array(rows, dtype=np.int32).T.copy()
-    return Policy(leaf, occurrence, on_success, on_failure, on_running, flat.occurrences, tree)
+    return Policy(leaf, occurrence, on_success, on_failure, on_running, flattener.occurrences, tree)
 
 
 def tick(flat: FlatTree, answer: Callable[[Leaf, int], Status]) -> Status:
@@ -128,11 +128,13 @@ def _number(leaf: Leaf, index: Mapping[Leaf, int]) -> int:
 class _Flattener(Compiler):
     """Gives every leaf one step per way of going on after it; steps name leaves by how far they are from the end."""
 
-    def __init__(self) -> None:
+    def __init__(self, tree: BehaviorTree) -> None:
         super().__init__()
         self.steps: list[Step] = []
         self.leaves: list[Leaf] = []
         self.known: dict[Step, int] = {}
+        self.first = self.start(tree)
+        self.occurrences = -self.behind
 
     def leaf(self, leaf: Leaf, success: int, failure: int, running: int) -> int:
         key = (self.behind, success, failure, running)
@@ -147,12 +149,10 @@ class _Flattener(Compiler):
             self.leaves.append(leaf)
         return at
 
-    def flat(self, start: int) -> FlatTree:
-        """Drop what no tick reaches, and number the rest in the order of first visit."""
-        order, total = visit_order(self.steps, start), -self.behind
+    def rows(self) -> Iterator[tuple[Leaf, int, int, int, int]]:
+        """The fields of the entries: without what no tick reaches, and numbered in the order of first visit."""
+        order = visit_order(self.steps, self.first)
         new = {**order, SUCCESS: SUCCESS, FAILURE: FAILURE, RUNNING: RUNNING}
-        entries = []
         for at in order:
             behind, success, failure, running = self.steps[at]
-            entries.append(Entry(self.leaves[at], total + behind, new[success], new[failure], new[running]))
-        return FlatTree(tuple(entries), 0, total)
+            yield self.leaves[at], self.occurrences + behind, new[success], new[failure], new[running]

@@ -12,7 +12,19 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, TypeAlias
 
 from grammarbt.bt.canonical import all_pure, canonical_key
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Fallback, Node, Not, Parallel, Sequence, children, walk
+from grammarbt.bt.model import (
+    Action,
+    BehaviorTree,
+    Condition,
+    Fallback,
+    Node,
+    Not,
+    Parallel,
+    Sequence,
+    children,
+    walk,
+    with_children,
+)
 from grammarbt.bt.notation import format_tree
 
 if TYPE_CHECKING:
@@ -61,7 +73,7 @@ def _proposals(tree: Node) -> Iterator[Node]:
     parts = children(tree)
     for index, part in enumerate(parts):
         for proposal in _proposals(part):
-            yield _with_parts(tree, (*parts[:index], proposal, *parts[index + 1 :]))
+            yield with_children(tree, (*parts[:index], proposal, *parts[index + 1 :]))
 
 
 def _rewritten(node: Node) -> Iterator[Node]:
@@ -105,7 +117,7 @@ def _with_one_less(node: Fallback | Sequence | Parallel) -> Iterator[Node]:
 def _joined(node: Fallback | Sequence | Parallel) -> Iterator[Node]:
     for index, part in enumerate(node.children):
         if isinstance(part, Fallback | Sequence) and type(part) is type(node):
-            yield _with_parts(node, (*node.children[:index], *part.children, *node.children[index + 1 :]))
+            yield with_children(node, (*node.children[:index], *part.children, *node.children[index + 1 :]))
 
 
 def _with_common_part_taken_out(node: Fallback | Sequence) -> Iterator[Node]:
@@ -120,11 +132,11 @@ def _with_common_part_taken_out(node: Fallback | Sequence) -> Iterator[Node]:
         if ones[-1] == others[-1] and min(len(ones), len(others)) > 1:
             taken.append((_both(node, ones[:-1], others[:-1]), ones[-1]))
         for parts in taken:
-            yield _with_parts(node, (*node.children[:index], _with_parts(left, parts), *node.children[index + 2 :]))
+            yield with_children(node, (*node.children[:index], with_children(left, parts), *node.children[index + 2 :]))
 
 
 def _both(node: Fallback | Sequence, ones: Nodes, others: Nodes) -> Node:
-    return _with_parts(node, tuple(part[0] if len(part) == 1 else _dual(node, part) for part in (ones, others)))
+    return with_children(node, tuple(part[0] if len(part) == 1 else _dual(node, part) for part in (ones, others)))
 
 
 def _negations(node: Fallback | Sequence) -> int:
@@ -137,13 +149,3 @@ def _negated(node: Node) -> Node:
 
 def _dual(node: Fallback | Sequence, parts: Nodes) -> Node:
     return Sequence(parts) if isinstance(node, Fallback) else Fallback(parts)
-
-
-def _with_parts(node: Node, parts: Nodes) -> Node:
-    if isinstance(node, Not):
-        return Not(parts[0])
-    return Parallel(parts, node.successes) if isinstance(node, Parallel) else _same(node, parts)
-
-
-def _same(node: Node, parts: Nodes) -> Node:
-    return Sequence(parts) if isinstance(node, Sequence) else Fallback(parts)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from grammarbt.bt.layout import numbered
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not, Parallel
+from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not, Parallel, numbered
 from grammarbt.bt.status import Status
 
 if TYPE_CHECKING:

@@ -94,6 +94,11 @@ class Vocabulary:
                 found.update((leaf, condition) for leaf in _conditions(condition))
         return found
 
+    @cached_property
+    def results(self) -> dict[Leaf, frozenset[Status]]:
+        """The answers that each action may give, as declared."""
+        return {leaf: kind.results for leaf, kind in self.types.items() if isinstance(kind, ActionType)}
+
     def is_pure(self, condition: Condition) -> bool:
         """Whether the condition is declared to draw no randomness and to change only when an action runs."""
         declared = self.types.get(condition)

@@ -24,8 +24,12 @@ VERBS: Mapping[str, tuple[str, str]] = {
     "run": ("grammarbt.cli.run:command", "Learn a tree: any searcher, any grammar, any domain."),
     "resume": ("grammarbt.cli.resume:command", "Go on with a run, or give it a larger budget."),
     "evaluate": ("grammarbt.cli.evaluate:command", "Measure a tree on fresh scenarios."),
+    "bench": ("grammarbt.cli.bench:command", "Searchers × domains × seeds at equal budget."),
+    "compare": ("grammarbt.cli.compare:command", "Put finished runs side by side."),
     "tree": ("grammarbt.cli.tree:command", "Show, convert, check or simplify a tree."),
     "grammar": ("grammarbt.cli.grammar:command", "Check a grammar, count and sample its trees, read trees back."),
+    "check": ("grammarbt.cli.check:command", "Put a domain or a searcher to the conformance kit."),
+    "new": ("grammarbt.cli.new:command", "Write a working plugin to edit."),
     "plugins": ("grammarbt.cli.plugins:command", "List plugins, or the parameters of one component."),
 }
 _FLAGS = ("--traceback", "--strict-plugins")

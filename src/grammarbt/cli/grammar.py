@@ -12,10 +12,7 @@ from grammarbt.cli.grammar_check import command as check
 from grammarbt.cli.output import emit_json, table
 
 if TYPE_CHECKING:
-    from grammarbt.grammar import BoundGrammar, Derivation
-    from grammarbt.grammar.count import Count
-    from grammarbt.grammar.parse import NotInLanguageError
-    from grammarbt.grammar.uniform import Likely
+    from grammarbt.grammar import BoundGrammar, Count, Derivation, Likely, NotInLanguageError
     from grammarbt.plugins import Registry
 
 NOT_IN_LANGUAGE = 1
@@ -43,9 +40,12 @@ command.add_command(check)
 @_domain
 @_as_json
 def count(file: str, domain: str, as_json: bool) -> None:
-    """Count derivations, distinct trees and distinct behaviours of FILE, exactly."""
-    from grammarbt.grammar.automaton import Language  # noqa: PLC0415 - only this verb needs it
-    from grammarbt.grammar.count import Counter  # noqa: PLC0415
+    """Count derivations, distinct trees and distinct behaviours of FILE, exactly.
+
+    Behaviours are counted where there are at most 200,000 trees, as that takes listing them; derivations and trees
+    unless some hundred thousand steps do not suffice. What passes these limits is `too many`, in JSON null.
+    """
+    from grammarbt.grammar import Counter, Language  # noqa: PLC0415 - brings lark, which `--help` does not need
 
     bound = _bound(file, domain, open_registry())
     counter = Counter(Language(bound))
@@ -75,7 +75,7 @@ def sample(file: str, domain: str, number: int, seed: int, uniform: Likely) -> N
     import numpy as np  # noqa: PLC0415 - only this verb needs it
 
     from grammarbt.bt import format_tree  # noqa: PLC0415
-    from grammarbt.grammar.uniform import sampler  # noqa: PLC0415
+    from grammarbt.grammar import sampler  # noqa: PLC0415
 
     bound = _bound(file, domain, open_registry())
     draw, rng = sampler(bound, uniform), np.random.default_rng(seed)
@@ -91,7 +91,7 @@ def sample(file: str, domain: str, number: int, seed: int, uniform: Likely) -> N
 @_as_json
 def parse(file: str, tree: str, domain: str, as_json: bool) -> int:
     """Say how FILE derives TREE, or where TREE leaves the language; exits with 1 if it does."""
-    from grammarbt.grammar.parse import NotInLanguageError, parse_tree  # noqa: PLC0415 - only this verb needs it
+    from grammarbt.grammar import NotInLanguageError, parse_tree  # noqa: PLC0415 - brings lark
     from grammarbt.run.trees import load_tree  # noqa: PLC0415
 
     registry = open_registry()

@@ -40,8 +40,7 @@ def command(file: str, domain: str | None, as_json: bool) -> int:
 
 def _words(bound: BoundGrammar) -> int | None:
     """How many words the language has, if that can be told."""
-    from grammarbt.grammar.automaton import Language  # noqa: PLC0415 - as above
-    from grammarbt.grammar.count import Counter  # noqa: PLC0415
+    from grammarbt.grammar import Counter, Language  # noqa: PLC0415 - as above
 
     try:
         return Counter(Language(bound)).words(bound.start_symbol)

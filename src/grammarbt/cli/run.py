@@ -11,7 +11,7 @@ import attrs
 import click
 
 from grammarbt.cli.app import open_registry
-from grammarbt.cli.output import emit_json, table
+from grammarbt.cli.output import emit_json, table, warn
 from grammarbt.cli.progress import Display, make_display
 from grammarbt.run.execute import Result, execute
 from grammarbt.run.setup import prepare
@@ -34,6 +34,7 @@ from grammarbt.run.spec import RunSpec, read_spec, settings_of
 @click.option("--trials", type=int, metavar="N", help="Stop the search after so many trials.")
 @click.option("--seconds", type=float, metavar="N", help="Stop the search after so much time.")
 @click.option("--target", type=float, metavar="VALUE", help="Stop the search when the best mean return reaches it.")
+@click.option("--stagnation", type=int, metavar="EPISODES", help="Stop the search when so many found no better tree.")
 @click.option(
     "--validation", type=int, metavar="EPISODES", help="Fresh worlds to score the tree on; 2000 unless given."
 )
@@ -50,6 +51,8 @@ def command(spec: str | None, settings: tuple[str, ...], as_json: bool, quiet: b
         preset = "paper"
     """  # noqa: D301 - \b is click's mark for lines to leave alone
     asked = (RunSpec() if spec is None else read_spec(Path(spec))).overridden(options, settings_of(settings))
+    if asked.workers > asked.batch:
+        warn(f"with --batch {asked.batch}, {asked.workers} workers search no faster than {asked.batch}")
     registry = open_registry()
     display = make_display(registry.host, quiet=quiet)
     setup = prepare(asked, registry)
@@ -90,7 +93,12 @@ def _summary(result: Result) -> str:
     if result.complete is not None:
         rows.append(("complete", "every group that matters works" if result.complete else "some group does not work"))
     rows += [
-        ("search", f"{result.episodes:,} episodes, {result.trials:,} trials, {result.seconds:.1f} s"),
+        ("search", f"{result.episodes:,} episodes, {result.trials:,} trials, {result.seconds:.1f} s{_failed(result)}"),
         ("run", result.run),
     ]
     return table(rows)
+
+
+def _failed(result: Result) -> str:
+    """How many trials of the search gave no return, and why."""
+    return "".join(f", {number:,} {status}" for status, number in result.failed.items())

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 import click
 
-from grammarbt.bt import Action, BehaviorTree, Condition, Node, children, format_leaf, format_tree
-from grammarbt.bt.notation import operator
+from grammarbt.bt import BehaviorTree, Condition, format_tree
+from grammarbt.cli import tree_check
 from grammarbt.cli.app import open_registry
+from grammarbt.cli.drawing import drawing
 from grammarbt.cli.failures import SUCCESS
 from grammarbt.cli.output import emit_json
 from grammarbt.errors import FormatError
@@ -40,11 +41,14 @@ def command() -> None:
     """
 
 
+command.add_command(tree_check.command)
+
+
 @command.command("show")
 @click.argument("tree")
 def show(tree: str) -> None:
     """Draw TREE, a node a line."""
-    print(drawing(load_tree(tree, open_registry())))
+    print("\n".join(drawing(load_tree(tree, open_registry()))))
 
 
 @command.command("convert")
@@ -97,11 +101,6 @@ def diff(one: str, other: str, domain: str | None, as_json: bool) -> int:
     return SUCCESS if found is None else DIFFERENT
 
 
-def drawing(tree: BehaviorTree) -> str:
-    """The tree with branches down the left side."""
-    return "\n".join([_label(tree), *_branches(tree, "")])
-
-
 def _purity(domain: str | None, registry: Registry) -> Callable[[Condition], bool]:
     if domain is None:
         return lambda _: True
@@ -115,15 +114,3 @@ def _write(result: str | bytes, output: Path | None) -> None:
         return
     sys.stdout.flush()
     sys.stdout.buffer.write(data)
-
-
-def _branches(node: Node, indent: str) -> Iterator[str]:
-    parts = children(node)
-    for number, part in enumerate(parts, 1):
-        branch, below = ("└─ ", "   ") if number == len(parts) else ("├─ ", "│  ")
-        yield f"{indent}{branch}{_label(part)}"
-        yield from _branches(part, indent + below)
-
-
-def _label(node: Node) -> str:
-    return format_leaf(node) if isinstance(node, Action | Condition) else operator(node)

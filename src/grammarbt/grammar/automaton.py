@@ -3,24 +3,31 @@
 Words come from determinizing the leftmost derivations (subset construction). A block that uses nothing of the
 constraints around it – such as the sub-tree of a group – is one edge wherever its words cannot be mistaken for anything
 else there; the graphs stay small, and everything that is counted or drawn from them is exact.
+
+For counting, nodes that differ only by swapping leaves that the grammar cannot tell apart are one node: such a graph has
+as many paths as there are words, but does not spell them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from functools import cache, cached_property
+from collections.abc import Callable, Iterable, Sequence
+from functools import cache, cached_property, partial
 from itertools import combinations
 from typing import TypeAlias
 
-import networkx as nx
 from attrs import Factory, define
 
+from grammarbt.bt.model import Action, Condition
 from grammarbt.grammar.bound import BoundGrammar
+from grammarbt.grammar.finite import endless, ever_open
 from grammarbt.grammar.form import SententialForm
-from grammarbt.grammar.leftmost import Move, Word
+from grammarbt.grammar.leftmost import Move
 from grammarbt.grammar.paths import MAX_STEPS, Paths, explore, infinite, too_large
+from grammarbt.grammar.symmetry import Item, Symmetry, by_number
 from grammarbt.grammar.table import Production
-from grammarbt.grammar.vectors import NOTHING
+
+_Subset: TypeAlias = tuple[Item, ...]
+_NodeOf: TypeAlias = Callable[[Iterable[Item]], _Subset]
 
 
 class Language:
@@ -28,8 +35,10 @@ class Language:
 
     def __init__(self, bound: BoundGrammar) -> None:
         self.bound = bound
-        self.words = cache(self._words)
-        self.derivations = cache(self._derivations)
+        self.words = cache(partial(self._words, self._same))
+        self.derivations = cache(partial(self._derivations, self._same))
+        self.words_to_count = cache(partial(self._words, self._merged))
+        self.derivations_to_count = cache(partial(self._derivations, self._merged))
         self._apart = cache(self._no_common_word)
         self._steps = 0
 
@@ -41,9 +50,14 @@ class Language:
     @cached_property
     def endless(self) -> frozenset[int]:
         """Nonterminals that can come back to themselves at no cost: below them there is no largest tree."""
-        return _endless(self.bound)
+        return endless(self.bound, self.bound.productions, ever_open(self.bound))
 
-    def _words(self, symbol: int) -> Paths:
+    @cached_property
+    def symmetry(self) -> Symmetry:
+        """Which leaves may be swapped."""
+        return Symmetry(self.bound)
+
+    def _words(self, node_of: _NodeOf, symbol: int) -> Paths:
         """The distinct words of a nonterminal.
 
         Raises:
@@ -51,20 +65,32 @@ class Language:
             TooLargeError: the graph passes the limits.
         """
         subsets = _Subsets(self, self._units(symbol))
-        return explore(subsets.start(symbol), subsets.edges)
 
-    def _derivations(self, symbol: int) -> Paths:
-        """The derivations of a nonterminal; raises as `words` does."""
+        def edges(subset: _Subset) -> tuple[bool, list[tuple[int, _Subset]]]:
+            end, after = subsets.after(subset)
+            return end, [(label, node_of(items)) for label, items in after]
+
+        return explore(self._same([((), self.bound.start(symbol))]), edges)
+
+    def _derivations(self, node_of: _NodeOf, symbol: int) -> Paths:
+        """The derivations of a nonterminal; raises as `_words` does."""
         units, leftmost = self._units(symbol), self.bound.leftmost
 
-        def edges(state: SententialForm) -> tuple[bool, list[tuple[int, SententialForm]]]:
+        def edges(node: _Subset) -> tuple[bool, list[tuple[int, _Subset]]]:
+            ((_, state),) = node
             block = self.first_block(state, units)
             if block is not None:
-                return False, [(~block, leftmost.split(without_first(state, block))[1])]
+                return False, [(~block, node_of([((), leftmost.split(without_first(state, block))[1])]))]
             moves = self.moves(state)
-            return not moves, [(move.production, move.after) for move in moves]
+            return not moves, [(move.production, node_of([((), move.after)])) for move in moves]
 
-        return explore(self.bound.start(symbol), edges)
+        return explore(self._same([((), self.bound.start(symbol))]), edges)
+
+    def _same(self, items: Iterable[Item]) -> _Subset:
+        return tuple(sorted(items, key=by_number))
+
+    def _merged(self, items: Iterable[Item]) -> _Subset:
+        return self.symmetry.representative(items)
 
     def _units(self, symbol: int) -> frozenset[int]:
         return self.contained if symbol == self.bound.start_symbol else frozenset()
@@ -87,7 +113,7 @@ class Language:
 
     def unmistakable(self, blocks: Sequence[int], terminals: Iterable[int]) -> bool:
         """Whether, where one of the blocks or terminals comes next, a word itself tells which."""
-        graphs = [self.words(block) for block in blocks]
+        graphs = [self.words_to_count(block) for block in blocks]
         heads = {label for graph in graphs for label, _ in graph.edges[0]}
         return (
             all(_is_prefix_free(graph) for graph in graphs)
@@ -96,6 +122,8 @@ class Language:
         )
 
     def _no_common_word(self, one: int, other: int) -> bool:
+        if self._leaves(one).isdisjoint(self._leaves(other)):  # every tree has a leaf
+            return not all(self.words_to_count(block).final[0] for block in (one, other))
         first, second = self.words(one), self.words(other)
         stack, seen = [(0, 0)], {(0, 0)}
         while stack:
@@ -108,17 +136,20 @@ class Language:
             seen.update(pairs)
         return True
 
-
-_Item: TypeAlias = tuple[Word, SententialForm]
-_Subset: TypeAlias = tuple[_Item, ...]
+    def _leaves(self, block: int) -> frozenset[int]:
+        """The leaves that can come up in a block."""
+        met = {symbol for production in _reached(self.bound, block) for symbol in production.rhs}
+        return frozenset(
+            s for s in met if s < self.bound.start_symbol and isinstance(self.bound.terminals[s], Action | Condition)
+        )
 
 
 @define
 class _Next:
     """What may come next at a node: a terminal, a block, or the end."""
 
-    terminals: dict[int, set[_Item]] = Factory(dict)
-    blocks: dict[int, set[_Item]] = Factory(dict)
+    terminals: dict[int, set[Item]] = Factory(dict)
+    blocks: dict[int, set[Item]] = Factory(dict)
     end: bool = False
 
 
@@ -129,16 +160,13 @@ class _Subsets:
         self.language, self.units = language, units
         self.leftmost = language.bound.leftmost
 
-    def start(self, symbol: int) -> _Subset:
-        return (((), self.language.bound.start(symbol)),)
-
-    def edges(self, subset: _Subset) -> tuple[bool, list[tuple[int, _Subset]]]:
-        after = self.closure(subset, self.units)
-        if after.blocks and not self.language.unmistakable(sorted(after.blocks), after.terminals):
-            after = self.closure(subset, frozenset())
-        own = [(terminal, items) for terminal, items in after.terminals.items()]
-        own += [(~block, items) for block, items in after.blocks.items()]
-        return after.end, [(label, tuple(sorted(items, key=_by_number))) for label, items in sorted(own, key=_label)]
+    def after(self, subset: _Subset) -> tuple[bool, list[tuple[int, set[Item]]]]:
+        """Whether a word may end here, and what follows each terminal or block that may come next."""
+        found = self.closure(subset, self.units)
+        if found.blocks and not self.language.unmistakable(sorted(found.blocks), found.terminals):
+            found = self.closure(subset, frozenset())
+        own = [*found.terminals.items(), *((~block, items) for block, items in found.blocks.items())]
+        return found.end, sorted(own, key=_label)
 
     def closure(self, subset: _Subset, units: frozenset[int]) -> _Next:
         found, stack, seen = _Next(), list(subset), set(subset)
@@ -159,12 +187,8 @@ class _Subsets:
         return found
 
 
-def _label(pair: tuple[int, set[_Item]]) -> int:
+def _label(pair: tuple[int, set[Item]]) -> int:
     return pair[0]
-
-
-def _by_number(item: _Item) -> tuple[object, ...]:
-    return item[0], item[1].symbols, item[1].used
 
 
 def without_first(state: SententialForm, symbol: int) -> SententialForm:
@@ -193,19 +217,3 @@ def _is_contained(bound: BoundGrammar, block: int) -> bool:
     return around.isdisjoint(bound.depth_constraints) and not any(
         production.use[at] for production in _reached(bound, block) for at in around
     )
-
-
-def _endless(bound: BoundGrammar) -> frozenset[int]:
-    """Nonterminals on a circle of productions that use up nothing of what is limited around them."""
-    graph: nx.DiGraph[int] = nx.DiGraph()
-    for production in bound.productions:
-        scopes = {*bound.encloses_of(production.lhs), *bound.opens_of(production.lhs)}
-        sized = any(bound.costs.constraints[at].kind != "unique" for at in scopes)
-        if sized or any(production.use[at] for at in scopes):
-            continue
-        costly = [s for s in production.rhs if bound.is_nonterminal(s) and bound.forms.needs.of(s) != NOTHING]
-        for symbol in production.rhs:
-            if bound.is_nonterminal(symbol) and all(other == symbol for other in costly) and costly.count(symbol) <= 1:
-                graph.add_edge(production.lhs, symbol)
-    circles = nx.strongly_connected_components(graph)
-    return frozenset(node for circle in circles for node in circle if len(circle) > 1 or graph.has_edge(node, node))

@@ -13,7 +13,6 @@ from grammarbt.grammar.constraints import Costs, compile_costs
 from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError
 from grammarbt.grammar.expand import expand
 from grammarbt.grammar.model import KINDS, START, Grammar
-from grammarbt.grammar.needs import EntangledError
 from grammarbt.grammar.shape import levels, operators, shape_findings
 from grammarbt.grammar.symbols import Nonterminal, PlainProduction
 from grammarbt.grammar.syntax import Limit, Unique
@@ -197,10 +196,7 @@ def _finishable(bound: BoundGrammar) -> BoundGrammar:
     """Complain if no word satisfies the constraints; forget blocks that have none."""
     directives: tuple[Unique | Limit, ...] = (*bound.grammar.uniques, *bound.grammar.limits)
     span = directives[0].span if directives else None
-    try:
-        needs = bound.forms.needs
-    except EntangledError as error:
-        raise GrammarFileError([Diagnostic("G406", error.message, span, error.hint or "")]) from None
+    needs = bound.forms.needs
     if not needs.of(bound.start_symbol):
         code = "G405" if bound.grammar.limits and not bound.grammar.uniques else "G404"
         message = "the constraints leave no tree at all"

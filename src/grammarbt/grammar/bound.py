@@ -8,11 +8,12 @@ from functools import cached_property
 import numpy as np
 from attrs import evolve, frozen
 
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Fallback, Node, Not, Parallel, Sequence
+from grammarbt.bt.model import MAX_DEPTH, Action, BehaviorTree, Condition, Fallback, Node, Not, Parallel, Sequence
 from grammarbt.bt.notation import OperatorToken
 from grammarbt.errors import GrammarError
-from grammarbt.grammar.form import Forms, SententialForm
+from grammarbt.grammar.form import SententialForm
 from grammarbt.grammar.leftmost import Leftmost, Word
+from grammarbt.grammar.rewriting import Forms
 from grammarbt.grammar.table import Derivation, Production, ProductionTable
 
 
@@ -75,11 +76,15 @@ class BoundGrammar(ProductionTable):
         return " ".join(self.symbol_text(symbol) for symbol in form.symbols if symbol >= 0)
 
     def tree(self, form: SententialForm) -> BehaviorTree:
-        """The behavior tree that a finished form spells."""
+        """The behavior tree that a finished form spells; raises as `tree_of` does."""
         return self.tree_of(tuple(symbol for symbol in form.symbols if symbol >= 0))
 
     def tree_of(self, word: Word) -> BehaviorTree:
-        """The behavior tree that a row of terminals spells."""
+        """The behavior tree that a row of terminals spells.
+
+        Raises:
+            GrammarError: it is deeper than trees can be.
+        """
         stack: list[list[Node]] = [[]]
         signs: list[str] = []
         for symbol in word:
@@ -90,10 +95,16 @@ class BoundGrammar(ProductionTable):
                 signs.append(token.sign)
             elif token.sign == "(":
                 stack.append([])
+                if len(stack) > MAX_DEPTH:
+                    raise self._too_deep()
             else:
                 children = tuple(stack.pop())
                 stack[-1].append(_node(signs.pop(), children))
         return stack[0][0]
+
+    def _too_deep(self) -> GrammarError:
+        message = f"{self.grammar.source.name}: a tree is deeper than {MAX_DEPTH} levels"
+        return GrammarError(message, f"add `%limit depth {MAX_DEPTH}`, or a smaller one")
 
     def sample(self, rng: np.random.Generator, symbol: int | None = None) -> Derivation:
         """A random derivation: at each step a legal production by weight."""

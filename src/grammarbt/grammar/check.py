@@ -17,7 +17,6 @@ from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError, Source
 from grammarbt.grammar.finite import is_finite
 from grammarbt.grammar.model import START, Grammar, load_grammar
-from grammarbt.grammar.needs import EntangledError
 from grammarbt.grammar.symbols import PlainProduction
 from grammarbt.grammar.syntax import literals, references
 from grammarbt.grammar.usage import Usage
@@ -102,8 +101,6 @@ def check(grammar: Grammar, vocabulary: Vocabulary | None = None, counter: Count
         return _bound_report(Usage(bound, written, productive_of(written)), findings, vocabulary is not None, counter)
     except GrammarFileError as error:
         return Report((*error.diagnostics, *findings))
-    except EntangledError as error:
-        return Report((Diagnostic("G406", error.message, None, error.hint or ""), *findings))
 
 
 def _bound_report(usage: Usage, findings: list[Diagnostic], full: bool, counter: Counter | None) -> Report:

@@ -43,7 +43,7 @@ class Counter:
         words = _within_limits(self.words, symbol)
         derivations = _within_limits(self.derivations, symbol)
         listed = words is not None and words <= MAX_LISTED
-        return Count(derivations, words, self.behaviours(symbol) if listed else None)
+        return Count(derivations, words, _within_limits(self.behaviours, symbol) if listed else None)
 
     def groups(self) -> dict[str, Count]:
         """One entry per group: what its block derives; the block's name where a group has several."""
@@ -65,10 +65,10 @@ class Counter:
         return len({canonical_key(bound.tree_of(word), is_pure) for word in words})
 
     def _words(self, symbol: int) -> int:
-        return totals(self.language.words(symbol), self.words)[0]
+        return totals(self.language.words_to_count(symbol), self.words)[0]
 
     def _derivations(self, symbol: int) -> int:
-        return totals(self.language.derivations(symbol), self.derivations)[0]
+        return totals(self.language.derivations_to_count(symbol), self.derivations)[0]
 
 
 def totals(graph: Paths, inside: Callable[[int], int]) -> list[int]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Literal
 
@@ -11,14 +11,25 @@ from attrs import field, frozen
 
 from grammarbt.errors import GrammarError
 
+MAX_FINDINGS = 30
+"""Findings reported at a time."""
+
 
 @frozen
 class Source:
-    """A grammar file's name and text, and the folder of its neighbours; the shipped grammars need none."""
+    """A grammar file.
+
+    Attributes:
+        name: as shown to people.
+        text: what it says.
+        folder: where its neighbours are; the shipped grammars need none.
+        neighbours: their texts by name without suffix, if these are known; then the folder does not matter.
+    """
 
     name: str
     text: str
     folder: Path | None = field(default=None, eq=False)
+    neighbours: Mapping[str, str] | None = field(default=None, eq=False)
 
 
 @frozen

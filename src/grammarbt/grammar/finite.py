@@ -1,8 +1,11 @@
-"""Has a language finitely many derivations?"""
+"""Can derivations go on for ever?
+
+They can if some circle of productions uses up nothing that a scope around it has a limited amount of.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import networkx as nx
 
@@ -11,39 +14,34 @@ from grammarbt.grammar.table import Production
 
 
 def is_finite(bound: BoundGrammar, usable: Iterable[Production]) -> bool:
-    """Whether no circle of productions can go on for ever.
+    """Whether the language has finitely many derivations, all of which take usable productions only."""
+    productions = tuple(usable)
+    return not endless(bound, productions, _always_open(bound, productions))
 
-    Each turn must use up something that a constraint around the whole circle limits.
+
+def endless(
+    bound: BoundGrammar, productions: Iterable[Production], limiting: Mapping[int, frozenset[int]]
+) -> frozenset[int]:
+    """Nonterminals that can come back to themselves at no cost.
+
+    Args:
+        bound: the language.
+        productions: those that may be taken.
+        limiting: for each nonterminal, the constraints to be minded in it.
     """
-    productions, needs = tuple(usable), bound.forms.needs
-    always = _always_open(bound, productions)
+    needs = bound.forms.needs
     graph: nx.DiGraph[int] = nx.DiGraph()
     for production in productions:
         for at, symbol in enumerate(production.rhs):
-            if bound.is_nonterminal(symbol):
-                spent = needs.certain(production, at) & always[production.lhs]
-                old = graph.get_edge_data(production.lhs, symbol, {"spent": spent})["spent"]
-                graph.add_edge(production.lhs, symbol, spent=old & spent)
-    return _ends(graph)
+            if bound.is_nonterminal(symbol) and needs.is_free(production, at, limiting[production.lhs]):
+                graph.add_edge(production.lhs, symbol)
+    circles = nx.strongly_connected_components(graph)
+    return frozenset(node for circle in circles for node in circle if len(circle) > 1 or graph.has_edge(node, node))
 
 
-def _ends(graph: nx.DiGraph[int]) -> bool:
-    """Whether every path ends: take out the steps that use up one constraint, and look at what is left."""
-    queue = [graph]
-    while queue:
-        part = queue.pop()
-        for component in nx.strongly_connected_components(part):
-            circle = part.subgraph(component)
-            if not circle.number_of_edges():
-                continue
-            steps: list[tuple[int, int, frozenset[int]]] = list(circle.edges(data="spent"))
-            spent = frozenset[int]().union(*(edge for _, _, edge in steps))
-            if not spent:
-                return False
-            rest = circle.copy()
-            rest.remove_edges_from([(one, other) for one, other, edge in steps if edge])
-            queue.append(rest)
-    return True
+def ever_open(bound: BoundGrammar) -> dict[int, frozenset[int]]:
+    """For each nonterminal, the constraints with a scope open in it on some way from the start."""
+    return {lhs: bound.encloses_of(lhs).union(bound.opens_of(lhs)) for lhs in bound.by_lhs}
 
 
 def _always_open(bound: BoundGrammar, productions: Iterable[Production]) -> dict[int, frozenset[int]]:

@@ -50,28 +50,42 @@ def with_imports(source: Source, items: tuple[Item, ...]) -> tuple[Item, ...]:
     return tuple(Linker(main, loader.modules).items())
 
 
+def bundled(source: Source) -> Source:
+    """The file together with the texts of the neighbours that it imports from, so that it can be read anywhere.
+
+    Raises:
+        GrammarFileError: it is not a grammar.
+    """
+    loader = _Loader()
+    loader.load(source, read(source))
+    beside = {key[1]: other.text for key, other in loader.sources.items() if key[0] and other != source}
+    return Source(source.name, source.text, neighbours=beside)
+
+
 class _Loader:
     """Reads each file once."""
 
     def __init__(self) -> None:
         self.modules: dict[Key, Module] = {}
+        self.sources: dict[Key, Source] = {}
         self.findings: list[Diagnostic] = []
         self.chain: list[Key] = []
 
     def load(self, source: Source, items: tuple[Item, ...]) -> Module:
         key = _key(source)
         module = self.modules[key] = Module(key, items)
+        self.sources[key] = source
         self.chain.append(key)
         for item in items:
             if isinstance(item, Import):
-                self._follow(module, item, source.folder)
+                self._follow(module, item, source)
         self.chain.pop()
         return module
 
-    def _follow(self, module: Module, item: Import, folder: Path | None) -> None:
+    def _follow(self, module: Module, item: Import, source: Source) -> None:
         """Load what an import names, and note the rules; whatever is wrong becomes a finding at the import."""
         try:
-            other = self._other(item, folder)
+            other = self._other(item, source)
         except GrammarFileError as error:
             self.findings += error.diagnostics
             return
@@ -83,13 +97,13 @@ class _Loader:
                 message = f"the grammar `{other.key[1]}` has no rule `{rule}`"
                 self.findings.append(Diagnostic("G109", message, item.span, did_you_mean(rule, known)))
 
-    def _other(self, item: Import, folder: Path | None) -> Module:
+    def _other(self, item: Import, importer: Source) -> Module:
         if item.level > 1 or len(item.module) > 1:
             help_ = "import from a shipped grammar, as in `%import scheide.subtree`, or from a neighbouring file"
             raise _failure("G107", "an import stays in the folder of its file", item, help_)
         if not item.module:
             raise _failure("G106", "this import names no grammar", item, "write `%import name.rule`")
-        source = _find(item.module[0], folder if item.level else None, item)
+        source = _find(item.module[0], importer, item)
         key = _key(source)
         if key in self.chain:
             raise _failure(
@@ -103,15 +117,29 @@ class _Loader:
 
 
 def _key(source: Source) -> Key:
-    return str(source.folder or ""), Path(source.name).stem
+    folder = "." if source.neighbours is not None else str(source.folder or "")
+    return folder, Path(source.name).stem
 
 
-def _find(name: str, folder: Path | None, item: Import) -> Source:
-    if folder is None:
-        if name not in shipped_grammars():
-            help_ = f"{did_you_mean(name, shipped_grammars())}; a file of yours is `.{name}`"
-            raise _failure("G106", f"no shipped grammar is called `{name}`", item, help_)
-        return shipped_grammars()[name]
+def _find(name: str, importer: Source, item: Import) -> Source:
+    if item.level and importer.neighbours is not None:
+        return _bundled_neighbour(name, importer, item)
+    if item.level and importer.folder is not None:
+        return _neighbour(name, importer.folder, item)
+    if name not in shipped_grammars():
+        help_ = f"{did_you_mean(name, shipped_grammars())}; a file of yours is `.{name}`"
+        raise _failure("G106", f"no shipped grammar is called `{name}`", item, help_)
+    return shipped_grammars()[name]
+
+
+def _bundled_neighbour(name: str, importer: Source, item: Import) -> Source:
+    texts = importer.neighbours or {}
+    if name not in texts:
+        raise _failure("G106", f"`{name}.grammar` was not kept with this file", item, did_you_mean(name, texts))
+    return Source(f"{name}.grammar", texts[name], neighbours=texts)
+
+
+def _neighbour(name: str, folder: Path, item: Import) -> Source:
     path = folder / f"{name}.grammar"
     if not path.is_file():
         help_ = did_you_mean(name, (other.stem for other in folder.glob("*.grammar") if other.is_file()))

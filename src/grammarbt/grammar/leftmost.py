@@ -14,13 +14,23 @@ from typing import TypeAlias
 import numpy as np
 from attrs import frozen
 
-from grammarbt.grammar.form import Forms, SententialForm
+from grammarbt.errors import GrammarError
+from grammarbt.grammar.form import SententialForm
+from grammarbt.grammar.rewriting import Forms
 from grammarbt.grammar.table import CLOSE, Derivation, ProductionTable
 
 Word: TypeAlias = tuple[int, ...]
 """Numbers of terminals."""
 
-MAX_STATES = 400_000
+MAX_KEPT = 4_000_000
+"""Symbols of states, all together, that are kept."""
+
+MAX_UNFINISHED = 2_000
+"""Symbols that a state of a random walk may have, apart from those of one production; trees seldom need a tenth."""
+
+MAX_STEPS = 100_000
+"""Steps of a random walk."""
+
 DRAWS = 32
 """Random numbers drawn at a time; about what a tree takes."""
 
@@ -63,12 +73,16 @@ class Leftmost:
         self.forms = forms
         self._moves: dict[SententialForm, tuple[Move, ...]] = {}
         self._forks: dict[SententialForm, _Fork] = {}
+        self._kept = 0
+        self._most = MAX_UNFINISHED + max(len(production.rhs) for production in grammar.productions)
 
     def moves(self, state: SententialForm) -> tuple[Move, ...]:
         """What may be done at the state's first nonterminal; empty only when nothing is left to derive."""
         known = self._moves.get(state)
         if known is None:
-            if len(self._moves) >= MAX_STATES:
+            self._kept += len(state.symbols)
+            if self._kept > MAX_KEPT:
+                self._kept = 0
                 self._moves.clear()
                 self._forks.clear()
             known = self._moves[state] = tuple(self._computed(state))
@@ -106,11 +120,17 @@ class Leftmost:
         return tuple(emits), SententialForm(())
 
     def random_walk(self, state: SententialForm, rng: np.random.Generator) -> tuple[Derivation, Word]:
-        """Derive a word from a state, choosing among legal moves by weight."""
+        """Derive a word from a state, choosing among legal moves by weight.
+
+        Raises:
+            GrammarError: the tree grows and grows.
+        """
         steps, emits, fork = self._leg((), (), state)
         derivation, word = [*steps], [*emits]
         draws: list[float] = []
         while fork is not None:
+            if len(derivation) > MAX_STEPS:
+                raise self._growth()
             if not draws:
                 draws = rng.random(DRAWS).tolist()
             at = bisect_right(fork.bounds, draws.pop() * fork.total)
@@ -129,7 +149,15 @@ class Leftmost:
             derivation += (moves[0].production,)
             word += moves[0].emits
             state = moves[0].after
+        if len(state.symbols) > self._most:
+            raise self._growth()
         return derivation, word, self._fork(state, moves) if moves else None
+
+    def _growth(self) -> GrammarError:
+        message = f"{self.grammar.grammar.source.name}: a random tree passes {MAX_STEPS:,} steps or {MAX_UNFINISHED:,} open ends"
+        return GrammarError(
+            message, "limit it, for example with `%limit nodes 40`, or give alternatives that end more weight"
+        )
 
     def _fork(self, state: SententialForm, moves: tuple[Move, ...]) -> _Fork:
         known = self._forks.get(state)

@@ -10,7 +10,7 @@ from pathlib import Path
 from attrs import frozen
 
 from grammarbt.errors import did_you_mean
-from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError, Source, Span
+from grammarbt.grammar.diagnostics import MAX_FINDINGS, Diagnostic, GrammarFileError, Source, Span
 from grammarbt.grammar.imports import read_source, with_imports
 from grammarbt.grammar.reader import read
 from grammarbt.grammar.syntax import (
@@ -26,7 +26,6 @@ from grammarbt.grammar.syntax import (
 
 START = "start"
 KINDS = ("ACTION", "CONDITION")
-MAX_FINDINGS = 30
 MAX_NAMES = 300
 
 

@@ -12,7 +12,8 @@ from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from operator import eq
 
-from grammarbt.errors import GrammarError
+from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError
+from grammarbt.grammar.syntax import Limit, Unique
 from grammarbt.grammar.table import Production, ProductionTable
 from grammarbt.grammar.vectors import NOTHING, Antichain, Vector, add, minimal, undercut
 
@@ -22,14 +23,20 @@ MAX_STEPS = 50_000
 """How many sums may be tried for one question; all nonterminals' needs together may take five times as many."""
 
 
-class EntangledError(GrammarError):
-    """The constraints depend on each other in more ways than can be looked through."""
+class EntangledError(GrammarFileError):
+    """The constraints depend on each other in more ways than can be looked through; shown at the first of them.
 
-    def __init__(self) -> None:
-        super().__init__(
-            "the constraints are too entangled to tell what can be finished",
-            "let %unique count less, give its scope fewer rules, or bind to fewer groups",
-        )
+    Args:
+        grammar: whose constraints.
+        unfinished: what was to be finished, for people; empty when it is any tree at all.
+    """
+
+    def __init__(self, grammar: ProductionTable, unfinished: str = "") -> None:
+        directives: tuple[Unique | Limit, ...] = (*grammar.grammar.uniques, *grammar.grammar.limits)
+        message = "the constraints are too entangled to tell what can be finished"
+        help_ = "let %unique count less, give its scope fewer rules, or bind to fewer groups"
+        notes = (f"to be finished: {unfinished}",) if unfinished else ()
+        super().__init__([Diagnostic("G406", message, directives[0].span if directives else None, help_, notes)])
 
 
 class Needs:
@@ -96,7 +103,7 @@ class Needs:
                         waiting.add(user.number)
                         queue.append(user)
             if self.steps > 5 * MAX_STEPS:
-                raise EntangledError
+                raise EntangledError(self.grammar)
 
     def _improve(self, production: Production, remaining: int) -> bool:
         key = (production.lhs, remaining)
@@ -131,16 +138,15 @@ class Needs:
             return ()
         return self.total(parts, self.production_cost[production.number], {}, seen)
 
-    def certain(self, production: Production, position: int) -> frozenset[int]:
-        """The constraints that the production uses something of, whatever the symbol at a position becomes."""
-        spent = {self.constraint_of[dimension] for dimension, _ in self.production_cost[production.number]}
-        if production.levels[position]:
-            spent.update(self.grammar.depth_constraints)
-        for at, symbol in enumerate(production.rhs):
-            if at != position and self.grammar.is_nonterminal(symbol) and (needs := self.of(symbol)):
-                sets = [{self.constraint_of[dimension] for dimension, _ in vector} for vector in needs]
-                spent |= set.intersection(*sets)
-        return frozenset(spent)
+    def is_free(self, production: Production, position: int, limiting: frozenset[int]) -> bool:
+        """Whether the production can use up nothing of these constraints, but for the symbol at a position."""
+        siblings = (symbol for at, symbol in enumerate(production.rhs) if at != position)
+        choices = [self.of(symbol) for symbol in siblings if self.grammar.is_nonterminal(symbol)]
+        deeper = production.levels[position] and not limiting.isdisjoint(self.grammar.depth_constraints)
+        return not deeper and all(
+            any(all(self.constraint_of[dimension] not in limiting for dimension, _ in vector) for vector in vectors)
+            for vectors in [(self.production_cost[production.number],), *choices]
+        )
 
     def clashes(self, production: Production, around: Iterable[int]) -> bool:
         """Whether the production breaks, by itself, a constraint on a scope that is or may be open."""
@@ -196,11 +202,11 @@ class Needs:
     ) -> Antichain:
         self.steps += len(sums) * len(part)
         if len(sums) * len(part) > MAX_STEPS:
-            raise EntangledError
+            raise EntangledError(self.grammar)
         fitting = (added for one in sums for other in part if self._fits(added := add(one, other), left))
         found = minimal(added for added in fitting if not superfluous(added))
         if len(found) > MAX_VECTORS:
-            raise EntangledError
+            raise EntangledError(self.grammar)
         return found
 
     def _some(self, parts: Sequence[Antichain], base: Vector, left: dict[int, int]) -> bool:
@@ -213,7 +219,7 @@ class Needs:
                 self.steps += len(failed)
                 return True
             if len(failed) > MAX_STEPS:
-                raise EntangledError
+                raise EntangledError(self.grammar)
             for other in reversed(parts[at]):
                 step = (at + 1, add(vector, other))
                 if step not in failed and self._fits(step[1], left):

@@ -3,35 +3,29 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib.resources import files
+from itertools import islice
 from typing import Any
 
-from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput, UnexpectedToken, v_args
-from lark.exceptions import VisitError
+from lark import Lark, UnexpectedInput, UnexpectedToken
 
-from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError, Source, Span
-from grammarbt.grammar.syntax import (
-    Alternative,
-    Choice,
-    Declare,
-    ForAll,
-    Import,
-    Item,
-    Limit,
-    Literal,
-    Reference,
-    Repeat,
-    Rule,
-    Unique,
-)
+from grammarbt.grammar.builder import build
+from grammarbt.grammar.diagnostics import MAX_FINDINGS, Diagnostic, GrammarFileError, Source, Span
+from grammarbt.grammar.syntax import Item
 
 MAX_CHARACTERS = 200_000
 MAX_TOKENS = 15_000
 MAX_NESTING = 40
-MAX_REPEAT = 1_000
 
-_WORD_OR_SIGN = r'"(?:\\.|[^"\\\n])*"|//[^\n]*|([(\[{])|([)\]}])|\w+|[^\w\s]'
+_STRING = r'"(?:\\.|[^"\\\n])*"'
+_WORD_OR_SIGN = re.compile(_STRING + r"|//[^\n]*|([(\[{])|([)\]}])|\w+|[^\w\s]")
+
+_HEAD = re.compile(r"^[ \t]*(?:%|\w+[ \t]*(?:\{[^}\n]*\})?[ \t]*[:=])", re.MULTILINE)
+"""What a rule or directive begins with; some write = for the colon."""
+
+_GOES_ON = "a rule goes on in the next line only if that begins with |, ) or ]"
 
 _NAMES = {
     "_OR": "'|'", "_CLOSE": "')'", "_CLOSE_OPTIONAL": "']'", "_NL": "a new line", "COLON": "':'", "LPAR": "'('",
@@ -42,20 +36,39 @@ _NAMES = {
 
 
 def read(source: Source) -> tuple[Item, ...]:
-    """Parse a grammar file.
+    """Parse a grammar file, statement by statement, so that each one can have its own errors.
 
     Raises:
-        GrammarFileError: with code G100 (syntax), G101 (nested too deeply), G102 (too large).
+        GrammarFileError: with codes G100 (syntax), G101 (nested too deeply), G102 (too large), G103 (weights), G104
+            (repetitions).
     """
     _check_size(source)
+    items: list[Item] = []
+    findings: list[Diagnostic] = []
+    for start, end in _statements(source.text):
+        items += _statement(source, start, end, findings)
+    if findings:
+        raise GrammarFileError(findings[:MAX_FINDINGS])
+    return tuple(items)
+
+
+def _statement(source: Source, start: int, end: int, findings: list[Diagnostic]) -> list[Item]:
+    too_deep = _nesting_error(source, start, end)
+    if too_deep:
+        findings.append(too_deep)
+        return []
     try:
-        tree = _parser().parse(source.text)
+        tree = _parser().parse(source.text[start:end].rstrip())
     except UnexpectedInput as error:
-        raise GrammarFileError([_syntax_error(source, error)]) from None
-    try:
-        return tuple(_Builder(source).transform(tree))
-    except VisitError as error:
-        raise error.orig_exc from None
+        findings.append(_syntax_error(source, start, error))
+        return []
+    return build(tree, source, start, findings)
+
+
+def _statements(text: str) -> Iterator[tuple[int, int]]:
+    """Where each rule or directive begins and ends; what stands before the first is part of none, but read, too."""
+    starts = [0, *(found.start() for found in _HEAD.finditer(text) if found.start())]
+    return zip(starts, [*starts[1:], len(text)], strict=True)
 
 
 @cache
@@ -68,47 +81,66 @@ def _check_size(source: Source) -> None:
     if len(source.text) > MAX_CHARACTERS:
         message = f"the file has {len(source.text):,} characters; a grammar has at most {MAX_CHARACTERS:,}"
         raise GrammarFileError([Diagnostic("G102", message, None, "split it, and use templates for what repeats")])
+    words = [*islice(_WORD_OR_SIGN.finditer(source.text), MAX_TOKENS + 1)]
+    if len(words) > MAX_TOKENS:
+        message, help_ = f"the file has more than {MAX_TOKENS:,} words and signs", "use templates for what repeats"
+        raise GrammarFileError([Diagnostic("G102", message, Span(source, *words[-1].span()), help_)])
+
+
+def _nesting_error(source: Source, start: int, end: int) -> Diagnostic | None:
     level = 0
-    for number, match in enumerate(re.finditer(_WORD_OR_SIGN, source.text)):
-        if number == MAX_TOKENS:
-            message, help_ = f"the file has more than {MAX_TOKENS:,} words and signs", "use templates for what repeats"
-            raise GrammarFileError([Diagnostic("G102", message, Span(source, match.start(), match.end()), help_)])
+    for match in _WORD_OR_SIGN.finditer(source.text, start, end):
         level += bool(match.group(1)) - bool(match.group(2))
         if level > MAX_NESTING:
-            span = Span(source, match.start(), match.end())
-            help_ = "give the inner part a rule of its own"
-            raise GrammarFileError([Diagnostic("G101", f"nested deeper than {MAX_NESTING} levels", span, help_)])
+            message, help_ = f"nested deeper than {MAX_NESTING} levels", "give the inner part a rule of its own"
+            return Diagnostic("G101", message, Span(source, *match.span()), help_)
+    return None
 
 
-def _syntax_error(source: Source, error: UnexpectedInput) -> Diagnostic:
-    at: Any = error.pos_in_stream
-    if at is None or not 0 <= at <= len(source.text):  # lark gives -1 where the text ends too early
-        at = len(source.text)
-    if isinstance(error, UnexpectedToken):
-        length = len(error.token) if error.token.type != "$END" else 1
-        expected = _expected(error.accepts or error.expected)
-        what = "the file ends here" if error.token.type == "$END" else f"did not expect {str(error.token).strip()!r}"
-    else:
-        length = 1
-        expected = _expected(error.allowed) if isinstance(error, UnexpectedCharacters) and error.allowed else ""
-        what = f"did not expect {source.text[at : at + 1]!r}"
-    message, help_ = _known_mistake(source, at) or (what, f"expected {expected}" if expected else "")
+def _syntax_error(source: Source, start: int, error: UnexpectedInput) -> Diagnostic:
+    at, length, what = _unexpected(source.text, start, error)
+    help_ = _GOES_ON if _is_on_next_line(source.text, start, at) else f"expected {_expected(error)}"
+    message, help_ = _known_mistake(source.text, at) or (what, help_)
     return Diagnostic("G100", message, Span(source, at, at + length), help_)
 
 
-def _expected(names: Any) -> str:  # noqa: ANN401  lark types its token sets loosely
+def _unexpected(text: str, start: int, error: UnexpectedInput) -> tuple[int, int, str]:
+    """Where a statement goes wrong, over how many characters, and what is wrong there."""
+    if not isinstance(error, UnexpectedToken):
+        place: Any = error.pos_in_stream  # lark declares it as None
+        at = start + place
+        return at, 1, f"did not expect {text[at]!r}"
+    token = error.token
+    if token.type == "$END":
+        what = "directive" if text[start:].lstrip().startswith("%") else "rule"
+        return start + token.end_pos, 1, f"the {what} ends too early"
+    if token.type == "_NL":
+        at = start + token.end_pos
+        return at, 1, f"did not expect {text[at]!r}"
+    return start + token.start_pos, len(token), f"did not expect {token.strip()!r}"
+
+
+def _is_on_next_line(text: str, start: int, at: int) -> bool:
+    """Whether a rule goes on where it cannot: in a line that begins with anything but |, ) or ]."""
+    line = text.rfind("\n", 0, at) + 1
+    return line > start and bool(_HEAD.match(text, start)) and text[line:].lstrip()[:1] not in "|)]"
+
+
+def _expected(error: UnexpectedInput) -> str:
+    possible = (getattr(error, name, None) for name in ("accepts", "expected", "allowed"))
+    names: Iterable[str] = next(filter(None, possible), ())
     shown = sorted({_NAMES.get(name, f"'%{name.lower().lstrip('_')}'") for name in names if name != "_NL"})
     return " or ".join(shown[:6])
 
 
-def _known_mistake(source: Source, at: int) -> tuple[str, str] | None:
-    rest, line = source.text[at : at + 40], source.text[:at].rpartition("\n")[2]
+def _known_mistake(text: str, at: int) -> tuple[str, str] | None:
+    rest, line = text[at : at + 40], text[:at].rpartition("\n")[2]
     if rest.startswith("/"):
         return (
             "regular expressions have no place here",
             "a grammar generates trees: write leaves as strings or terminals",
         )
-    if rest.startswith('"'):
+    if rest.startswith('"') and not re.compile(_STRING).match(text, at):
         return "this string is never closed", 'add " before the end of the line'
     if rest.startswith("%"):
         known = "%declare, %forall, %unique, %limit, %import"
@@ -118,113 +150,3 @@ def _known_mistake(source: Source, at: int) -> tuple[str, str] | None:
     if re.match(r"[A-Z]\w*\s*:", rest):
         return "terminals are declared, not defined", "use a lower-case rule, or %declare ACTION CONDITION"
     return None
-
-
-class _Builder(Transformer[Token, Any]):
-    """Turns lark's tree into ours, bottom up."""
-
-    def __init__(self, source: Source) -> None:
-        super().__init__()
-        self.source = source
-
-    def span(self, meta: Any) -> Span:  # noqa: ANN401  lark's Meta has no static attributes
-        return Span(self.source, getattr(meta, "start_pos", 0), getattr(meta, "end_pos", 0))
-
-    def token_span(self, token: Token) -> Span:
-        start = token.start_pos or 0
-        return Span(self.source, start, start + len(token))
-
-    def start(self, items: list[Item | None]) -> list[Item]:
-        return [item for item in items if item is not None]
-
-    def rule(self, parts: list[Any]) -> Rule:
-        name, parameters, alternatives = parts
-        return Rule(str(name), parameters or (), alternatives, self.token_span(name))
-
-    def parameters(self, names: list[Token]) -> tuple[str, ...]:
-        return tuple(map(str, names))
-
-    def alternatives(self, parts: list[Alternative]) -> tuple[Alternative, ...]:
-        return tuple(parts)
-
-    @v_args(meta=True)
-    def alternative(self, meta: Any, parts: list[Any]) -> Alternative:  # noqa: ANN401
-        *items, weight, alias = parts
-        span = self.span(meta) if items else self.span(None)
-        if weight is not None and not 0 < float(weight) < float("inf"):
-            message = f"a weight of {weight} says nothing"
-            raise GrammarFileError([Diagnostic("G103", message, self.token_span(weight), "use a number above 0")])
-        return Alternative(tuple(items), 1.0 if weight is None else float(weight), alias and str(alias), span)
-
-    @v_args(meta=True)
-    def operator(self, meta: Any, parts: list[Any]) -> Repeat:  # noqa: ANN401
-        least, most = {"?": (0, 1), "*": (0, None), "+": (1, None)}[parts[1]]
-        return Repeat(parts[0], least, most, self.span(meta))
-
-    @v_args(meta=True)
-    def times(self, meta: Any, parts: list[Any]) -> Repeat:  # noqa: ANN401
-        item, least, most = parts
-        most = least if most is None else most
-        for number in (least, most):
-            if len(number) > len(str(MAX_REPEAT)) or int(number) > MAX_REPEAT:
-                message = f"repeating {number[:12]} times is too much; at most {MAX_REPEAT:,} are possible"
-                raise GrammarFileError([Diagnostic("G102", message, self.token_span(number), "use * or +, and %limit")])
-        if int(most) < int(least) or int(most) == 0:
-            message = f"there is no number of times from {least} to {most}"
-            raise GrammarFileError([Diagnostic("G104", message, self.span(meta), "write the smaller number first")])
-        return Repeat(item, int(least), int(most), self.span(meta))
-
-    @v_args(meta=True)
-    def group(self, meta: Any, parts: list[Any]) -> Choice:  # noqa: ANN401
-        return Choice(parts[0], optional=False, span=self.span(meta))
-
-    @v_args(meta=True)
-    def optional(self, meta: Any, parts: list[Any]) -> Choice:  # noqa: ANN401
-        return Choice(parts[0], optional=True, span=self.span(meta))
-
-    def literal(self, parts: list[Token]) -> Literal:
-        text = re.sub(r"\\(.)", r"\1", parts[0][1:-1])
-        return Literal(text, self.token_span(parts[0]))
-
-    @v_args(meta=True)
-    def reference(self, meta: Any, parts: list[Any]) -> Reference:  # noqa: ANN401
-        name, arguments = parts
-        return Reference(str(name), arguments or (), self.span(meta))
-
-    def arguments(self, parts: list[Any]) -> tuple[Any, ...]:
-        return tuple(parts)
-
-    @v_args(meta=True)
-    def declare(self, meta: Any, names: list[Token]) -> Declare:  # noqa: ANN401
-        return Declare(tuple(map(str, names)), self.span(meta))
-
-    @v_args(meta=True)
-    def forall(self, meta: Any, names: list[Token]) -> ForAll:  # noqa: ANN401
-        *variables, domain = map(str, names)
-        return ForAll(tuple(variables), domain, self.span(meta))
-
-    @v_args(meta=True)
-    def unique(self, meta: Any, names: list[Token]) -> Unique:  # noqa: ANN401
-        *what, scope = map(str, names)
-        return Unique(tuple(what), scope, self.span(meta))
-
-    @v_args(meta=True)
-    def limit(self, meta: Any, parts: list[Any]) -> Limit:  # noqa: ANN401
-        kind, number, scope = parts
-        most = int(number) if len(number) < len(str(MAX_CHARACTERS)) else MAX_CHARACTERS
-        return Limit(str(kind), most, "start" if scope is None else str(scope), self.span(meta))
-
-    @v_args(meta=True)
-    def import_rule(self, meta: Any, parts: list[Any]) -> Import:  # noqa: ANN401
-        (level, names), alias = parts
-        *module, rule = names
-        return Import(level, tuple(module), ((rule, str(alias or rule)),), self.span(meta))
-
-    @v_args(meta=True)
-    def import_names(self, meta: Any, parts: list[Any]) -> Import:  # noqa: ANN401
-        (level, module), *rules = parts
-        return Import(level, tuple(module), tuple((str(rule), str(rule)) for rule in rules), self.span(meta))
-
-    def path(self, parts: list[Any]) -> tuple[int, list[str]]:
-        dots, *names = parts
-        return len(dots or ""), [str(name) for name in names]

@@ -13,7 +13,10 @@ import networkx as nx
 
 from grammarbt.bt.notation import BracketToken, OperatorToken
 from grammarbt.grammar.diagnostics import Diagnostic
+from grammarbt.grammar.model import START
 from grammarbt.grammar.symbols import Nonterminal, PlainProduction, Symbol
+
+_CHILDREN = 'write for example "?" "(" x ")"'
 
 MANY = 1_000_000
 """Stands for any number of trees."""
@@ -32,7 +35,7 @@ def operators(productions: Sequence[PlainProduction]) -> dict[Nonterminal, froze
         changed = False
         for lhs, own in alternatives.items():
             parts = [_sign_set(production, signs) for production in own]
-            if lhs not in signs and all(parts):
+            if lhs not in signs and lhs.rule != START and all(parts):
                 signs[lhs] = frozenset().union(*parts)
                 changed = True
     return signs
@@ -77,13 +80,15 @@ def _bracket_findings(production: PlainProduction, signs: dict[Nonterminal, froz
         sign = symbol.sign if isinstance(symbol, BracketToken) else ""
         if awaiting != (sign == "("):
             message = "an operator is not followed by '('" if awaiting else "'(' without an operator before it"
-            yield Diagnostic("G303", message, production.span, 'write for example "?" "(" x ")"')
+            yield Diagnostic("G303", message, production.span, _CHILDREN)
             return
         awaiting = isinstance(symbol, OperatorToken) or symbol in signs
         level += (sign == "(") - (sign == ")")
         if level < 0:
             break
-    if level or awaiting:
+    if awaiting:
+        yield Diagnostic("G303", "an operator is not followed by '('", production.span, _CHILDREN)
+    elif level:
         message = "the parentheses of this alternative do not match"
         help_ = "every alternative must open and close its own, so that each word is a tree"
         yield Diagnostic("G301", message, production.span, help_)
@@ -161,7 +166,7 @@ def _arity_findings(
             continue
         for sign in sorted({symbol.sign} if isinstance(symbol, OperatorToken) else signs[symbol]):
             yield from _operand_findings(production, sign, row)
-    if production.lhs.rule == "start" and (own := _row(production.rhs, signs, arities)) and own != (1, 1):
+    if production.lhs.rule == START and (own := _row(production.rhs, signs, arities)) and own != (1, 1):
         message = f"`start` stands for {_many(own)} trees, not one"
         yield Diagnostic("G305", message, production.span, 'put them under a control node, as in "?" "(" … ")"')
 

@@ -10,7 +10,14 @@ from grammarbt.plugins.specs import ExecutorSpec, FormatSpec, SearcherSpec
 @hookimpl
 def grammarbt_searchers() -> tuple[SearcherSpec, ...]:
     """The searchers that need no plugin."""
-    return (SearcherSpec("random", "grammarbt.search.random:RandomSearch", help="Samples words of the grammar."),)
+    return (
+        SearcherSpec("random", "grammarbt.search.random:RandomSearch", help="Samples words of the grammar."),
+        SearcherSpec(
+            "exhaustive",
+            "grammarbt.search.exhaustive:ExhaustiveSearch",
+            help="Simulates one tree per behaviour, smallest first, until none is left.",
+        ),
+    )
 
 
 @hookimpl

@@ -11,6 +11,10 @@ def _written(name: str, module: str, suffix: str, text: str) -> FormatSpec:
     return FormatSpec(name, (suffix,), f"{_PACKAGE}.{module}:dumps", None, text)
 
 
+def _plotted(name: str, text: str) -> FormatSpec:
+    return FormatSpec(name, (f".{name}",), f"{_PACKAGE}.plot:{name}", None, text)
+
+
 def _both_ways(name: str, module: str, suffixes: tuple[str, ...], text: str) -> FormatSpec:
     return FormatSpec(name, suffixes, f"{_PACKAGE}.{module}:dumps", f"{_PACKAGE}.{module}:loads", text)
 
@@ -28,5 +32,6 @@ FORMATS = (
     _written("dot", "dot", ".dot", "Graphviz."),
     _written("mermaid", "mermaid", ".mmd", "A Mermaid flowchart."),
     _written("svg", "svg", ".svg", "A picture, as SVG."),
-    _written("png", "png", ".png", "A picture, as PNG; needs matplotlib."),
+    _plotted("png", "A picture, as PNG; needs matplotlib."),
+    _plotted("pdf", "A picture, as PDF; needs matplotlib."),
 )

@@ -83,18 +83,24 @@ class PluginHost:
         self._warn = warn
         self._hooks: dict[str, pluggy.HookRelay] = {}
         self.plugins = without_clashes([self._core(), *self._announced()])
-        self._observers = [plugin for plugin in self.plugins if plugin.status == "ok"]
+        self._observers = {event: self._listening(hook) for event, hook in _OBSERVERS.items()}
         self._report_broken()
 
     def notify(self, event: Event) -> None:
         """Tell every observer; one that raises is switched off from then on, with one line."""
-        for plugin in tuple(self._observers):
+        for plugin in tuple(self._observers[type(event)]):
             try:
                 hook: pluggy.HookCaller = getattr(self._hooks[plugin.name], _OBSERVERS[type(event)])
                 _guarded(hook.name, partial(hook, event=event))
             except PluginError as error:
-                self._observers.remove(plugin)
+                for observers in self._observers.values():
+                    if plugin in observers:
+                        observers.remove(plugin)
                 self._warn(f"{plugin} no longer observes: {error.message}")
+
+    def _listening(self, hook: str) -> list[Plugin]:
+        used = (plugin for plugin in self.plugins if plugin.status == "ok")
+        return [plugin for plugin in used if getattr(self._hooks[plugin.name], hook).get_hookimpls()]
 
     def _core(self) -> Plugin:
         return self._registered(Plugin(CORE, "grammarbt", __version__), builtin)

@@ -91,14 +91,27 @@ class Registry:
         return cast("Domain", made)
 
     def make_searcher(self, name: str, context: SearchContext, settings: Settings) -> Searcher:
-        """A searcher by name, ready to be asked.
+        """A searcher by name, or from a plain file as `FILE.py:NAME`, ready to be asked.
+
+        A class in a file names the attrs class of its parameters as its attribute `Parameters`; others take none.
 
         Raises:
             UnknownNameError: nothing is called so.
+            DomainError: the file cannot be used.
             ParameterError: a setting is wrong.
             PluginError: the plugin breaks while making it.
         """
+        if is_file_reference(name):
+            chosen: object = parameters.build(self.searcher_parameters(name), settings, "searcher")
+            factory = cast("Callable[..., object]", load_from_file(name))
+            return cast("Searcher", _called(f"searcher {name!r}", factory, context, chosen))
         return cast("Searcher", self._make("searcher", self.searcher(name), settings, context))
+
+    def searcher_parameters(self, name: str) -> type:
+        """The attrs class of the parameters of the searcher of that name, or in that file."""
+        if is_file_reference(name):
+            return cast("type", getattr(load_from_file(name), "Parameters", _no_parameters()))
+        return self.parameters_of(self.searcher(name))
 
     def make_executor(self, name: str, workers: int, initializer: Callable[[], object], settings: Settings) -> Executor:
         """An executor by name; `initializer` is called in each worker process before anything else.
@@ -109,6 +122,14 @@ class Registry:
             PluginError: the plugin breaks while making it.
         """
         return cast("Executor", self._make("executor", self.executor(name), settings, workers, initializer))
+
+    def own_grammar(self, domain: Domain, name: str) -> Source:
+        """The default grammar of the domain of that name, which may give its text instead of a grammar's name."""
+        from grammarbt.grammar.diagnostics import Source  # noqa: PLC0415 - as in find_grammar
+
+        if ":" in domain.grammar and "\n" in domain.grammar:
+            return Source(f"the grammar of {name}", domain.grammar)
+        return self.find_grammar(domain.grammar)
 
     def find_grammar(self, name_or_path: str) -> Source:
         """A grammar's text, by the name of one that a plugin or grammarbt ships, or by its path.
@@ -174,7 +195,11 @@ def _from_file(reference: str, settings: Settings) -> object:
     found = load_from_file(reference)
     if isinstance(found, type) and attrs.has(found):
         return parameters.build(found, settings, "domain")
+    parameters.build(_no_parameters(), settings, "domain")
+    return _called(f"domain {reference!r}", found) if isinstance(found, type) else found
+
+
+def _no_parameters() -> type:
     from grammarbt.domain import NoParameters  # noqa: PLC0415 - brings numpy, which listing plugins does not need
 
-    parameters.build(NoParameters, settings, "domain")
-    return _called(f"domain {reference!r}", found) if isinstance(found, type) else found
+    return NoParameters

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
-from attrs import evolve, frozen
+from attrs import frozen
 
-from grammarbt.bt import BehaviorTree, Fallback, Node, Parallel, Sequence, format_tree, leaves, parse
+from grammarbt.bt import BehaviorTree, Fallback, Node, Parallel, Sequence, format_tree, leaves, numbered, parse, without
 from grammarbt.domain import Vocabulary, actions_of, conditions_of
 from grammarbt.run.score import Score, Validator, score_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from collections.abc import Set as AbstractSet
 
     from grammarbt.domain import Returns
 
@@ -61,14 +62,18 @@ class Ablator:
     def __init__(self, validator: Validator, episodes: int) -> None:
         self._returns: Callable[[BehaviorTree], Returns] = cache(lambda tree: validator.returns(tree, episodes))
         self._vocabulary = validator.domain.vocabulary
-        references = validator.domain.references
-        self._needed = self._reference_costs(parse(references[0].tree)) if references else {}
-        self._has_reference = bool(references)
+        self._references = validator.domain.references
 
     def ablate(self, tree: BehaviorTree) -> Functional:
         """Take out each top sub-tree, then each group."""
-        ablations = tuple(self._ablation(part, self._drop(tree, _is(part))) for part in top_subtrees(tree))
-        return Functional(ablations, self._complete(tree) if self._has_reference else None)
+        ablations = tuple(self._ablation(part, self.drop(tree, {place})) for place, part in top_subtrees(tree))
+        return Functional(ablations, self._complete(tree) if self._references else None)
+
+    def drop(self, tree: BehaviorTree, gone: AbstractSet[int]) -> Score:
+        """Mean return lost without the nodes at some places in pre-order, scenario by scenario."""
+        whole = self._returns(tree)
+        rest = without(tree, gone)
+        return score_of(whole if rest is None else whole - self._returns(rest))
 
     def _ablation(self, part: Node, drop: Score) -> Ablation:
         group = group_of(part, self._vocabulary)
@@ -79,42 +84,29 @@ class Ablator:
         costs = self._group_costs(tree)
         return all(costs.get(group, 0.0) >= _WORKS * cost for group, cost in self._needed.items())
 
-    def _reference_costs(self, reference: BehaviorTree) -> Mapping[str | None, float]:
-        """What each group that matters to the reference is worth there."""
+    @cached_property
+    def _needed(self) -> Mapping[str | None, float]:
+        """What each group that matters to the first reference is worth there."""
+        if not self._references:
+            return {}
+        reference = parse(self._references[0].tree)
         least = _MATTERS * abs(score_of(self._returns(reference)).mean)
         return {group: cost for group, cost in self._group_costs(reference).items() if cost >= least}
 
     def _group_costs(self, tree: BehaviorTree) -> dict[str | None, float]:
-        present = dict.fromkeys(group_of(part, self._vocabulary) for part in top_subtrees(tree))
-        return {group: self._drop(tree, self._belongs_to(group)).mean for group in present if group is not None}
-
-    def _belongs_to(self, group: str) -> Callable[[Node], bool]:
-        return lambda part: group_of(part, self._vocabulary) == group
-
-    def _drop(self, tree: BehaviorTree, goes: Callable[[Node], bool]) -> Score:
-        whole = self._returns(tree)
-        rest = without(tree, goes)
-        return score_of(whole if rest is None else whole - self._returns(rest))
+        places: dict[str, set[int]] = {}
+        for place, part in top_subtrees(tree):
+            group = group_of(part, self._vocabulary)
+            if group is not None:
+                places.setdefault(group, set()).add(place)
+        return {group: self.drop(tree, gone).mean for group, gone in places.items()}
 
 
-def top_subtrees(tree: BehaviorTree) -> tuple[Node, ...]:
-    """The root's children; the tree itself when its root is no control node."""
-    return tree.children if isinstance(tree, Fallback | Sequence | Parallel) else (tree,)
-
-
-def _is(one: Node) -> Callable[[Node], bool]:
-    # the same node, not an equal one: a tree may hold two equal sub-trees
-    return lambda part: part is one
-
-
-def without(tree: BehaviorTree, goes: Callable[[Node], bool]) -> BehaviorTree | None:
-    """The tree without the top sub-trees that go; None when nothing is left."""
-    left = tuple(part for part in top_subtrees(tree) if not goes(part))
-    if not left:
-        return None
-    if isinstance(tree, Parallel):
-        return Parallel(left, min(tree.successes, len(left)))
-    return evolve(tree, children=left) if isinstance(tree, Fallback | Sequence) else tree
+def top_subtrees(tree: BehaviorTree) -> list[tuple[int, Node]]:
+    """The root's children with their places in pre-order; the tree itself when its root is no control node."""
+    if not isinstance(tree, Fallback | Sequence | Parallel):
+        return [(0, tree)]
+    return [(place, node) for place, (node, parent) in enumerate(numbered(tree)) if parent == 0]
 
 
 def group_of(part: Node, vocabulary: Vocabulary) -> str | None:

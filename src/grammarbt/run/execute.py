@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
-from attrs import asdict, frozen
+from attrs import asdict, field, frozen
 
 from grammarbt.bt import format_tree, parse
 from grammarbt.errors import RunError, SearcherError
@@ -20,6 +20,8 @@ from grammarbt.run.replay import Replay
 from grammarbt.run.score import Score, Validator
 from grammarbt.run.select import MAX_CANDIDATES, SuccessiveHalving
 from grammarbt.run.simulator import make_simulator
+from grammarbt.run.snapshot import Camera, Snapshot, restore
+from grammarbt.run.stopping import Tally
 
 if TYPE_CHECKING:
     from grammarbt.bt import BehaviorTree
@@ -41,7 +43,11 @@ class Named:
 
 @frozen
 class Result:
-    """What `grammarbt run --json` prints; the fields are those of the documented JSON."""
+    """What `grammarbt run --json` prints; the fields are those of the documented JSON.
+
+    Attributes:
+        failed: how many trials of the search had which status other than `"ok"`.
+    """
 
     run: str
     tree: str
@@ -55,6 +61,7 @@ class Result:
     complete: bool | None
     stopped: str
     validation: int
+    failed: Mapping[str, int]
 
 
 def execute(setup: Setup, watcher: Watcher) -> Result:
@@ -65,10 +72,25 @@ def execute(setup: Setup, watcher: Watcher) -> Result:
         KeyboardInterrupt: the user stopped it; the journal is whole up to the last batch, and the best tree saved.
     """
     folder = create_folder(setup.spec, setup.resolved)
-    return go_on(setup, folder, Journal.open(folder.journal), Replay(), watcher)
+    return go_on(setup, folder, Past(Journal.open(folder.journal)), watcher)
 
 
-def go_on(setup: Setup, folder: RunFolder, journal: Journal, replay: Replay, watcher: Watcher) -> Result:
+@frozen(eq=False)
+class Past:
+    """What a run goes on from.
+
+    Attributes:
+        journal: open, at the snapshot's position if there is one.
+        replay: the journal's trials from there on.
+        snapshot: where the search begins; None for the very beginning.
+    """
+
+    journal: Journal
+    replay: Replay = field(factory=Replay)
+    snapshot: Snapshot | None = None
+
+
+def go_on(setup: Setup, folder: RunFolder, past: Past, watcher: Watcher) -> Result:
     """Run in a folder, from where its journal ends; closes the journal.
 
     Raises:
@@ -77,17 +99,18 @@ def go_on(setup: Setup, folder: RunFolder, journal: Journal, replay: Replay, wat
         KeyboardInterrupt: as `execute`.
     """
     watcher.folder(folder.path)
-    with Recorder(folder, journal) as recorder, setup.executor:
-        return _Run(setup, folder, recorder, replay, watcher).run()
+    with Recorder(folder, past.journal, past.snapshot.batches if past.snapshot else 0) as recorder, setup.executor:
+        return _Run(setup, folder, recorder, past, watcher).run()
 
 
 class _Run:
-    def __init__(self, setup: Setup, folder: RunFolder, recorder: Recorder, replay: Replay, watcher: Watcher) -> None:
+    def __init__(self, setup: Setup, folder: RunFolder, recorder: Recorder, past: Past, watcher: Watcher) -> None:
         self.setup, self.spec = setup, setup.spec
         self.folder, self.recorder, self.watcher = folder, recorder, watcher
         self.simulator = make_simulator(setup.domain, setup.executor, self.spec.workers)
-        self.evaluator = Evaluator(setup.domain, self.spec.seed, replay, self.simulator)
-        self.loop = AskTellLoop(setup.searcher, self.evaluator, self.spec, self.record_batch)
+        self.evaluator = Evaluator(setup.domain, self.spec.seed, past.replay, self.simulator)
+        self.tally = restore(past.snapshot, setup, self.evaluator) if past.snapshot else Tally()
+        self.camera = Camera(folder, setup, self.evaluator, recorder, self.tally)
 
     def run(self) -> Result:
         spec = self.spec
@@ -114,44 +137,54 @@ class _Run:
 
     def search(self) -> str:
         self.watcher.phase("searching", self.spec.search_episodes)
+        self.watcher.advance(self.tally.episodes)
         try:
-            reason = self.loop.run()
+            reason = AskTellLoop(self.setup.searcher, self.evaluator, self.spec, self.tally, self).run()
         finally:
-            if self.loop.incumbent.tree is not None:
-                self.folder.save_best(self.loop.incumbent.tree)
-        self.recorder.event(event="searched", stopped=reason, trials=self.loop.trials, episodes=self.evaluator.episodes)
+            if self.tally.incumbent.tree is not None:
+                self.folder.save_best(self.tally.incumbent.tree)
+        self.recorder.event(event="searched", stopped=reason, trials=self.tally.trials, episodes=self.tally.episodes)
         return reason
 
-    def record_batch(self, trials: Sequence[Trial]) -> None:
+    @property
+    def seconds(self) -> float:
+        return self.recorder.seconds
+
+    def learned(self) -> None:
+        self.camera.shoot()
+
+    def evaluated(self, trials: Sequence[Trial]) -> None:
         self.recorder.batch(trials)
-        first = self.loop.trials - len(trials) + 1
+        metrics = guarded("metrics", self.setup.searcher.metrics)
+        first = self.tally.trials - len(trials) + 1
         for number, trial in enumerate(trials, first):
             self.watcher.advance(trial.simulated)
-            self.watcher.notify(self.trial_finished(number, trial))
+            self.watcher.notify(self.trial_finished(number, trial, metrics))
 
-    def trial_finished(self, number: int, trial: Trial) -> TrialFinished:
-        evaluation, incumbent = trial.evaluation, self.loop.incumbent
+    def trial_finished(self, number: int, trial: Trial, metrics: Mapping[str, float]) -> TrialFinished:
+        evaluation, best = trial.evaluation, self.tally.incumbent
         return TrialFinished(
             self.folder.path,
             number,
-            self.evaluator.episodes,
-            format_tree(evaluation.proposal.tree),
+            self.tally.episodes,
+            trial.text,
             evaluation.status,
             evaluation.mean,
-            incumbent.mean,
-            "" if incumbent.tree is None else format_tree(incumbent.tree),
-            guarded("metrics", self.setup.searcher.metrics),
+            best.mean,
+            best.text,
+            metrics,
         )
 
     def select(self) -> BehaviorTree:
-        if self.loop.incumbent.tree is None:
+        incumbent = self.tally.incumbent.tree
+        if incumbent is None:
             raise RunError("no tree could be evaluated", f"the errors stand in {self.folder.journal}")
         self.watcher.phase("selecting", self.spec.selection_episodes)
         candidates = guarded("candidates", lambda: self.setup.searcher.candidates(MAX_CANDIDATES))
         if not isinstance(cast("object", candidates), Sequence) or len(candidates) > MAX_CANDIDATES:
             raise SearcherError("candidates must return a list of trees, no more than asked for", "best first")
         halving = SuccessiveHalving(self.evaluator, self.record_selection)
-        return halving.best(candidates or [self.loop.incumbent.tree], self.spec.selection_episodes)
+        return halving.best(candidates or [incumbent], self.spec.selection_episodes)
 
     def record_selection(self, trial: Trial) -> None:
         self.recorder.selection(trial)
@@ -170,10 +203,10 @@ class _Run:
             ratio = score.mean / other.mean if other.mean else None
             complete = self.complete(best)
         tree, episodes = format_tree(best), self.evaluator.episodes
-        self.recorder.event(event="finished", tree=tree, trials=self.loop.trials, episodes=episodes, complete=complete)
+        self.recorder.event(event="finished", tree=tree, trials=self.tally.trials, episodes=episodes, complete=complete)
         return Result(
-            str(self.folder.path), tree, score.mean, score.stderr, episodes, self.loop.trials, seconds,
-            named, ratio, complete, stopped, self.spec.validation,
+            str(self.folder.path), tree, score.mean, score.stderr, episodes, self.tally.trials, seconds,
+            named, ratio, complete, stopped, self.spec.validation, self.tally.bad,
         )  # fmt: skip
 
     def validated(self, validator: Validator, name: str, tree: BehaviorTree) -> Score:

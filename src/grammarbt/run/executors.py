@@ -2,36 +2,24 @@
 
 from __future__ import annotations
 
-import contextlib
-import multiprocessing
-import signal
-from collections.abc import Callable
-from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from functools import partial
 from queue import LifoQueue
-from typing import TYPE_CHECKING, ParamSpec, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from attrs import field, frozen
 from attrs.validators import gt, optional
 
-from grammarbt.errors import GrammarBTError, ParameterError, RunError
+from grammarbt.errors import ParameterError
+from grammarbt.run.process import Call, Limits, Worker, memory_is_known
 
 if TYPE_CHECKING:
-    from multiprocessing.connection import Connection
-    from multiprocessing.context import ForkServerProcess
+    from collections.abc import Callable
 
     from grammarbt.domain import NoParameters
 
 Arguments = ParamSpec("Arguments")
 Answer = TypeVar("Answer")
-Call: TypeAlias = Callable[[], object]
-Packed: TypeAlias = tuple[object, tuple[str, str | None] | None]
-
-_PATIENCE = 5.0
-"""Seconds that a process that has hung up gets to end."""
-
-_WORKER_MODULE = "grammarbt.run.worker"
-"""Imported once by the server that worker processes are forked from, so that each starts fast."""
 
 
 class SerialExecutor(Executor):
@@ -63,28 +51,36 @@ class ProcessParameters:
         validator=optional(gt(0)),
         metadata={"help": "seconds that simulating one proposal may take; then its worker is killed"},
     )
+    memory: int | None = field(
+        default=None,
+        validator=optional(gt(0)),
+        metadata={"help": "MB (of 10^6 bytes) that a worker may hold; then it is killed and replaced; on Linux"},
+    )
 
 
 def make_processes(workers: int, initializer: Call, parameters: ProcessParameters) -> ProcessExecutor:
     """The executor `processes`."""
-    return ProcessExecutor(workers, initializer, parameters.timeout)
+    if parameters.memory is not None and not memory_is_known():
+        raise ParameterError("executor.memory needs Linux's /proc", "leave it out on this machine")
+    limits = Limits(parameters.timeout, parameters.memory and parameters.memory * 1_000_000)
+    return ProcessExecutor(workers, initializer, limits)
 
 
 class ProcessExecutor(Executor):
     """Worker processes, each led by a thread of its own, so that one can be killed and replaced while the others go on.
 
-    A call that takes too long raises `TimeoutError`, one whose process ends `BrokenExecutor`; later calls get a new one.
+    A call that takes too long raises `TimeoutError`, one that needs too much memory `MemoryError`, and one whose process
+    ends `BrokenExecutor`; later calls get a new process.
 
     Args:
         workers: how many processes; each is started when it is first needed.
         initializer: called in each before its first call; can be pickled.
-        timeout: seconds that a call may take, the initializer not included; None for no limit.
+        limits: what a call may take.
     """
 
-    def __init__(self, workers: int, initializer: Call, timeout: float | None) -> None:
-        self._timeout = timeout
-        self._workers = [_Worker(initializer) for _ in range(workers)]
-        self._idle: LifoQueue[_Worker] = LifoQueue()
+    def __init__(self, workers: int, initializer: Call, limits: Limits) -> None:
+        self._workers = [Worker(initializer, limits) for _ in range(workers)]
+        self._idle: LifoQueue[Worker] = LifoQueue()
         for worker in self._workers:
             self._idle.put(worker)
         self._threads = ThreadPoolExecutor(workers)
@@ -106,82 +102,6 @@ class ProcessExecutor(Executor):
     def _call(self, call: Callable[[], Answer]) -> Answer:
         worker = self._idle.get()
         try:
-            return worker.call(call, self._timeout)
+            return worker.call(call)
         finally:
             self._idle.put(worker)
-
-
-class _Worker:
-    """A process that does one call after the other; a new one takes its place when it ends."""
-
-    def __init__(self, initializer: Call) -> None:
-        self._initializer = initializer
-        self._process: ForkServerProcess | None = None
-        self._connection: Connection
-
-    def call(self, call: Callable[[], Answer], timeout: float | None) -> Answer:
-        if self._process is None:
-            self._start()
-        try:
-            self._connection.send(call)
-            if not self._connection.poll(timeout):
-                self.end()
-                raise TimeoutError(f"took longer than {timeout:g} s")
-            answer = cast("Answer", _unpacked(self._connection.recv()))
-        except (EOFError, ConnectionError):
-            code = self.end(_PATIENCE)
-            raise BrokenExecutor(f"the simulator ended its process with exit code {code}") from None
-        return answer
-
-    def end(self, patience: float = 0.0) -> int | None:
-        """Kill the process, unless it ends by itself in time; its exit code, negative for a signal."""
-        process, self._process = self._process, None
-        if process is None:
-            return None
-        process.join(patience)
-        if process.is_alive():
-            process.kill()
-            process.join()
-        return process.exitcode
-
-    def _start(self) -> None:
-        context = multiprocessing.get_context("forkserver")
-        context.set_forkserver_preload([_WORKER_MODULE])
-        self._connection, theirs = context.Pipe()
-        self._process = context.Process(target=_serve, args=(theirs, self._initializer), daemon=True)
-        self._process.start()
-        theirs.close()
-        try:
-            _unpacked(self._connection.recv())
-        except (EOFError, ConnectionError):
-            code = self.end(_PATIENCE)
-            raise RunError(
-                f"a worker process ended with exit code {code} at its start", "try the domain with 'grammarbt evaluate'"
-            ) from None
-
-
-def _serve(connection: Connection, initializer: Call) -> None:
-    """What a worker process does: answer calls until the other end hangs up."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the run, which ends its workers
-    call = initializer
-    with contextlib.suppress(EOFError, ConnectionError):
-        while True:
-            connection.send(_packed(call))
-            call = connection.recv()
-
-
-def _packed(call: Call) -> Packed:
-    """A call's answer, or its error as message and hint: not every exception can travel."""
-    try:
-        return call(), None
-    except GrammarBTError as error:
-        return None, (error.message, error.hint)
-    except Exception as error:  # noqa: BLE001 - raised again where the answer is awaited
-        return None, (f"a worker process failed with {type(error).__name__}: {error}", None)
-
-
-def _unpacked(packed: Packed) -> object:
-    answer, error = packed
-    if error is not None:
-        raise RunError(*error)
-    return answer

@@ -1,7 +1,8 @@
-"""A run's folder: `spec.toml`, `run.json`, `journal.jsonl`, `timing.jsonl` and `best.tree`."""
+"""A run's folder: `spec.toml`, `run.json`, `journal.jsonl`, `timing.jsonl`, `snapshot.json` and `best.tree`."""
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 from itertools import count
@@ -53,6 +54,11 @@ class RunFolder:
         return self.path / "timing.jsonl"
 
     @property
+    def snapshot(self) -> Path:
+        """Where a searcher that can say so stood, so that not all need be repeated."""
+        return self.path / "snapshot.json"
+
+    @property
     def best(self) -> Path:
         """The best tree, in the one-line notation."""
         return self.path / "best.tree"
@@ -62,8 +68,8 @@ class RunFolder:
         _replace(self.best, format_tree(tree) + "\n")
 
     def save_resolved(self, resolved: Resolved) -> None:
-        """Replace `run.json`, whose last entry says whether the others are as they were written."""
-        _replace(self.resolved, json.dumps(_sealed(resolved), ensure_ascii=False, indent=2) + "\n")
+        """Replace `run.json`."""
+        save_sealed(self.resolved, resolved, indent=2)
 
     def read_resolved(self) -> Resolved:
         """What `save_resolved` wrote.
@@ -72,17 +78,33 @@ class RunFolder:
             RunError: there is no run here, or its `run.json` is damaged.
         """
         try:
-            resolved: object = json.loads(self.resolved.read_text(encoding="utf-8"))
+            return read_sealed(self.resolved)
         except OSError as error:
             raise RunError(
                 f"cannot read {str(self.resolved)!r}: {error.strerror}", "give the folder of a run"
             ) from None
-        except (ValueError, RecursionError):
-            resolved = None
-        content = {key: value for key, value in resolved.items() if key != "crc"} if isinstance(resolved, dict) else {}
-        if not content or _sealed(content) != resolved:
-            raise RunError(f"{self.resolved} is damaged", "restore the file from a backup")
-        return content
+
+
+def save_sealed(path: Path, content: Resolved, indent: int | None = None) -> None:
+    """Replace a JSON file, whose last entry says whether the others are as they were written."""
+    _replace(path, json.dumps(_sealed(content), ensure_ascii=False, indent=indent) + "\n")
+
+
+def read_sealed(path: Path) -> Resolved:
+    """What `save_sealed` wrote.
+
+    Raises:
+        OSError: there is no such file.
+        RunError: it is damaged.
+    """
+    try:
+        found: object = json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError):
+        found = None
+    content = {key: value for key, value in found.items() if key != "crc"} if isinstance(found, dict) else {}
+    if not content or _sealed(content) != found:
+        raise RunError(f"{path} is damaged", "restore the file from a backup")
+    return content
 
 
 def create_folder(spec: RunSpec, resolved: Resolved) -> RunFolder:
@@ -127,6 +149,8 @@ def _replace(path: Path, text: str) -> None:
         fresh.write_text(text, encoding="utf-8")
         fresh.replace(path)
     except OSError as error:
+        with contextlib.suppress(OSError):
+            fresh.unlink(missing_ok=True)
         raise RunError(f"cannot write {str(path)!r}: {error.strerror}", "free some space") from None
 
 

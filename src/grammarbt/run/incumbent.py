@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from attrs import define, field
+from attrs import define
 
-from grammarbt.bt import BehaviorTree
+from grammarbt.bt import BehaviorTree, parse
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,32 +22,49 @@ class Incumbent:
     The spread is that of all returns seen, since most trees have been simulated once only.
 
     Attributes:
-        tree: the best tree, None before the first good evaluation.
+        text: the best tree in the one-line notation, empty before the first good evaluation.
         mean: its mean return.
         episodes: over how many episodes.
+        count, average, squares: of all returns seen, their number, mean and sum of squared differences from it.
     """
 
-    tree: BehaviorTree | None = None
+    text: str = ""
     mean: float = float("-inf")
     episodes: int = 0
-    _count: int = field(default=0, init=False)
-    _average: float = field(default=0.0, init=False)
-    _squares: float = field(default=0.0, init=False)
+    count: int = 0
+    average: float = 0.0
+    squares: float = 0.0
 
-    def consider(self, tree: BehaviorTree, returns: Sequence[float], fresh: Sequence[float]) -> None:
-        """Compare a tree, given all its returns, of which `fresh` were not seen before."""
+    @property
+    def tree(self) -> BehaviorTree | None:
+        """The best tree, None before the first good evaluation."""
+        return parse(self.text) if self.text else None
+
+    def consider(self, text: str, mean: float, episodes: int, fresh: Sequence[float]) -> bool:
+        """Compare a tree.
+
+        Args:
+            text: the tree.
+            mean: of all its returns.
+            episodes: how many these are.
+            fresh: those of them that were not seen before.
+
+        Returns:
+            Whether it has taken another's place.
+        """
         for value in fresh:
             self._note(value)
-        mean, episodes = sum(returns) / len(returns), len(returns)
-        if self.tree in (None, tree) or self._cautious(mean, episodes) > self._cautious(self.mean, self.episodes):
-            self.tree, self.mean, self.episodes = tree, mean, episodes
+        better = text != self.text and self._cautious(mean, episodes) > self._cautious(self.mean, self.episodes)
+        if better or text == self.text:
+            self.text, self.mean, self.episodes = text, mean, episodes
+        return better
 
     def _note(self, value: float) -> None:
         # Welford's update of a mean and a sum of squared differences
-        self._count += 1
-        difference = value - self._average
-        self._average += difference / self._count
-        self._squares += difference * (value - self._average)
+        self.count += 1
+        difference = value - self.average
+        self.average += difference / self.count
+        self.squares += difference * (value - self.average)
 
     def _cautious(self, mean: float, episodes: int) -> float:
-        return mean - _DOUBT * sqrt(self._squares / self._count / episodes)
+        return mean - _DOUBT * sqrt(self.squares / self.count / episodes) if episodes else mean

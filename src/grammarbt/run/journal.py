@@ -13,6 +13,8 @@ from itertools import islice
 from typing import TYPE_CHECKING, TypeAlias
 from zlib import crc32
 
+from attrs import frozen
+
 from grammarbt.errors import RunError
 
 if TYPE_CHECKING:
@@ -23,6 +25,19 @@ if TYPE_CHECKING:
 Event: TypeAlias = "Mapping[str, object]"
 
 _TAIL = len(',"crc":"00000000"}\n')
+_encode = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode
+
+
+@frozen
+class Position:
+    """A place between two lines of a journal: how many events and bytes come before it, and the CRC of those."""
+
+    events: int
+    size: int
+    crc: int
+
+
+START = Position(0, 0, 0)
 
 
 class Journal:
@@ -30,27 +45,28 @@ class Journal:
 
     A journal that holds events already is repeated: what is appended must be what stands there, byte by byte, and is
     written only beyond its end. Use `Journal.open`; it cuts a torn last line, which a killed process may have left.
-
-    Attributes:
-        events: how many were appended or repeated.
     """
 
-    def __init__(self, file: FileIO, path: Path, keep: int | None, extended: Callable[[], None]) -> None:
-        self.events = 0
+    def __init__(
+        self, file: FileIO, path: Path, keep: int | None, extended: Callable[[], None], start: Position
+    ) -> None:
         self._file = file
         self._path = path
         self._extended = extended
-        self._crc = self._size = 0
-        self._old: Iterator[bytes] | None = islice(_lines(path), keep)
+        self._events, self._size, self._crc = start.events, start.size, start.crc
+        self._old: Iterator[bytes] | None = _lines(path, keep, start)
 
     @classmethod
-    def open(cls, path: Path, keep: int | None = None, extended: Callable[[], None] = lambda: None) -> Journal:
+    def open(
+        cls, path: Path, keep: int | None = None, extended: Callable[[], None] = lambda: None, start: Position = START
+    ) -> Journal:
         """Open or make a journal.
 
         Args:
             path: its file.
             keep: how many of its events to repeat; None for all. The others are cut off when the first is written.
             extended: called just before the first event is written.
+            start: from where on to repeat.
 
         Raises:
             RunError: it cannot be written, is in use by another run, or is damaged before its last line.
@@ -61,13 +77,18 @@ class Journal:
             raise RunError(f"cannot write {str(path)!r}: {error.strerror}", "choose another folder") from None
         try:
             _lock(file, path)
-            whole = sum(len(line) for line in _lines(path))
+            whole = sum(map(len, _lines(path)))
             if whole < path.stat().st_size:
                 file.truncate(whole)
         except BaseException:
             file.close()
             raise
-        return cls(file, path, keep, extended)
+        return cls(file, path, keep, extended, start)
+
+    @property
+    def position(self) -> Position:
+        """Where the next event goes."""
+        return Position(self._events, self._size, self._crc)
 
     @property
     def repeating(self) -> bool:
@@ -89,29 +110,30 @@ class Journal:
         self._file.close()
 
     def _line(self, event: Event) -> bytes:
-        body = json.dumps(event, ensure_ascii=False, allow_nan=False, separators=(",", ":"))[:-1].encode()
+        body = _encode(event)[:-1].encode()
         self._crc = crc32(body, self._crc)
         return body + _tail(self._crc)
 
     def _repeats(self, line: bytes) -> bool:
-        self.events += 1
-        old = None if self._old is None else next(self._old, None)
+        self._events += 1
+        if self._old is None:
+            return False
+        old = next(self._old, None)
         if old is None:
             self._finish_old()
             return False
         if old != line:
             raise RunError(
-                f"{self._path}, line {self.events}: the run does not repeat itself",
+                f"{self._path}, line {self._events}: the run does not repeat itself",
                 "resume with the versions and files that the run began with",
             )
         self._size += len(line)
         return True
 
     def _finish_old(self) -> None:
-        if self._old is not None:
-            self._old = None
-            self._file.truncate(self._size)
-            self._extended()
+        self._old = None
+        self._file.truncate(self._size)
+        self._extended()
 
     def _write(self, data: bytes) -> None:
         rest = data
@@ -134,17 +156,38 @@ def read_journal(path: Path) -> list[Event]:
     return list(iterate_journal(path))
 
 
-def iterate_journal(path: Path) -> Iterator[Event]:
-    """As `read_journal`, one by one, for journals larger than the memory."""
-    return (json.loads(line[:-_TAIL] + b"}") for line in _lines(path))
+def iterate_journal(path: Path, keep: int | None = None, start: Position = START) -> Iterator[Event]:
+    """As `read_journal`, one by one, for journals larger than the memory.
+
+    Args:
+        path: the journal.
+        keep: the number of the event to stop after, counted from the journal's beginning; None for the last.
+        start: where to begin.
+    """
+    return (json.loads(line[:-_TAIL] + b"}") for line in _lines(path, keep, start))
 
 
-def _lines(path: Path) -> Iterator[bytes]:
-    """The whole lines of a journal, each checked."""
-    crc = 0
+def holds(path: Path, position: Position) -> bool:
+    """Whether a journal passes through a position.
+
+    Raises:
+        RunError: as `read_journal`.
+    """
+    size, crc, events = 0, b"%08x" % 0, 0
+    for line in _lines(path, position.events):
+        size, crc, events = size + len(line), line[-11:-3], events + 1
+    return (events, size, crc) == (position.events, position.size, b"%08x" % position.crc)
+
+
+def _lines(path: Path, keep: int | None = None, start: Position = START) -> Iterator[bytes]:
+    """The whole lines of a journal from a position on, each checked, to the one numbered `keep`."""
+    crc = start.crc
     try:
         with path.open("rb") as file:
-            for number, line in enumerate(file, 1):
+            file.seek(start.size)
+            for number, line in enumerate(
+                islice(file, None if keep is None else keep - start.events), start.events + 1
+            ):
                 if not line.endswith(b"\n"):
                     return
                 crc = crc32(line[:-_TAIL], crc)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from grammarbt.bt import Action, Condition, Fallback, Not, Parallel
 from grammarbt.bt import Sequence as SequenceNode
 from grammarbt.errors import GrammarBTError, RunError, SearcherError
-from grammarbt.run.incumbent import Incumbent
 from grammarbt.run.select import FIRST_SELECTION_SCENARIO
+from grammarbt.run.stopping import Reason, Tally, reason_to_stop
 from grammarbt.search import Proposal, Searcher
 
 if TYPE_CHECKING:
@@ -20,12 +19,28 @@ if TYPE_CHECKING:
     from grammarbt.run.spec import RunSpec
 
 Answer = TypeVar("Answer")
-Reason: TypeAlias = Literal["budget", "trials", "seconds", "target", "exhausted", "stalled"]
-"""Why a search stopped; exhausted: the searcher has nothing left, stalled: it proposes nothing new."""
 
-_STALLED = 10_000
-_MAX_FAILURES = 25
+MAX_FAILURES = 25
+"""Trials that may fail one after the other."""
+
 _NODE = (Action, Condition, Fallback, SequenceNode, Parallel, Not)
+
+
+class Follower(Protocol):
+    """Who follows a search."""
+
+    @property
+    def seconds(self) -> float:
+        """How long the search has taken."""
+        ...
+
+    def evaluated(self, trials: Sequence[Trial]) -> None:
+        """A batch was evaluated; the searcher does not know it yet."""
+        ...
+
+    def learned(self) -> None:
+        """The searcher was told, and is about to be asked again."""
+        ...
 
 
 class AskTellLoop:
@@ -35,25 +50,19 @@ class AskTellLoop:
         searcher: proposes and learns.
         evaluator: simulates.
         spec: when to stop, and how many to ask for at a time.
-        record: told of each batch, before the searcher is.
-
-    Attributes:
-        incumbent: the best tree so far.
-        trials: proposals evaluated.
+        tally: where the search stands; it is kept up to date.
+        follower: hears of each batch.
     """
 
     def __init__(
-        self, searcher: Searcher, evaluator: Evaluator, spec: RunSpec, record: Callable[[Sequence[Trial]], None]
+        self, searcher: Searcher, evaluator: Evaluator, spec: RunSpec, tally: Tally, follower: Follower
     ) -> None:
-        self.incumbent = Incumbent()
-        self.trials = 0
         self._searcher = searcher
         self._evaluator = evaluator
         self._spec = spec
-        self._record = record
-        self._started = time.monotonic()
-        self._known_in_a_row = 0
-        self._failed_in_a_row = 0
+        self._tally = tally
+        self._follower = follower
+        self._failures: list[Trial] = []
 
     def run(self) -> Reason:
         """Go on until something stops the search.
@@ -62,28 +71,31 @@ class AskTellLoop:
             SearcherError: the searcher broke, or broke the protocol.
             RunError: too many trials failed, one after the other.
         """
-        while True:
+        reason = self._stopped() if self._tally.trials else None
+        while reason is None:
             reason = self._batch() or self._stopped()
-            if reason:
-                return reason
+        return reason
 
     def _batch(self) -> Reason | None:
-        left = self._spec.search_episodes - self._evaluator.episodes
-        asked = int(min(self._spec.batch, left, self._trials_left))
-        proposals = self._ask(asked)
+        left = self._spec.search_episodes - self._tally.episodes
+        proposals = self._ask(int(min(self._spec.batch, left, self._trials_left)))
         if not proposals:
             return "exhausted"
+        replaying = self._evaluator.replay.going
         trials = self._evaluator.evaluate(proposals, left)
-        self._note(trials)
-        self._record(trials)
+        for trial in trials:
+            self._tally.note(trial)
+        self._follower.evaluated(trials)
         if len(trials) < len(proposals):
             return "budget"
         self._tell(trials)
+        if not replaying:
+            self._check_failures(trials)
         return None
 
     @property
     def _trials_left(self) -> float:
-        return float("inf") if self._spec.trials is None else self._spec.trials - self.trials
+        return float("inf") if self._spec.trials is None else self._spec.trials - self._tally.trials
 
     def _ask(self, asked: int) -> Sequence[Proposal]:
         proposals: object = guarded("ask", lambda: self._searcher.ask(asked))
@@ -91,39 +103,25 @@ class AskTellLoop:
 
     def _tell(self, trials: Sequence[Trial]) -> None:
         guarded("tell", lambda: self._searcher.tell([trial.evaluation for trial in trials]))
-        failed = next((trial for trial in trials if trial.evaluation.status != "ok"), None)
-        if failed and self._failed_in_a_row >= _MAX_FAILURES and not self._evaluator.replay.going:
-            raise RunError(
-                f"{self._failed_in_a_row} trials failed in a row, the last with: {failed.evaluation.error}",
-                "try one with 'grammarbt evaluate'",
-            )
+        self._follower.learned()
 
-    def _note(self, trials: Sequence[Trial]) -> None:
+    def _check_failures(self, trials: Sequence[Trial]) -> None:
+        """A run that goes on may try as often again: its simulator may have been repaired meanwhile."""
         for trial in trials:
-            self.trials += 1
-            self._known_in_a_row = 0 if trial.simulated else self._known_in_a_row + 1
-            if trial.evaluation.status != "ok":
-                self._failed_in_a_row += 1
-                continue
-            self._failed_in_a_row = 0
-            tree = trial.evaluation.proposal.tree
-            known = self._evaluator.known(tree)
-            self.incumbent.consider(tree, known, known[len(known) - trial.simulated :])
+            self._failures = [*self._failures, trial] if trial.evaluation.status != "ok" else []
+            if len(self._failures) >= MAX_FAILURES:
+                first = self._failures[0]
+                raise RunError(
+                    f"{MAX_FAILURES} trials failed in a row, the first with: {first.evaluation.error}",
+                    f"try its tree with 'grammarbt evaluate', then resume: {first.text}",
+                )
 
     def _stopped(self) -> Reason | None:
-        spec = self._spec
-        conditions: tuple[tuple[Reason, bool], ...] = (
-            ("budget", self._evaluator.episodes >= spec.search_episodes),
-            ("trials", spec.trials is not None and self.trials >= spec.trials),
-            ("target", spec.target is not None and self.incumbent.mean >= spec.target),
-            ("seconds", spec.seconds is not None and self._out_of_time(spec.seconds)),
-            ("stalled", self._known_in_a_row >= _STALLED),
-        )
-        return next((reason for reason, holds in conditions if holds), None)
+        return reason_to_stop(self._spec, self._tally, self._out_of_time)
 
     def _out_of_time(self, seconds: float) -> bool:
         replay = self._evaluator.replay
-        return replay.out_of_time if replay.going else time.monotonic() - self._started >= seconds
+        return replay.out_of_time if replay.going else self._follower.seconds >= seconds
 
 
 def guarded(method: str, call: Callable[[], Answer]) -> Answer:

@@ -1,21 +1,24 @@
-"""Writing a run down: each batch to the journal, its time to a file of its own."""
+"""Writing a run down: each batch to the journal, and now and then the time to a file of its own."""
 
 from __future__ import annotations
 
+import contextlib
 import json
 import time
 from typing import TYPE_CHECKING
 
-from grammarbt.bt import format_tree
 from grammarbt.errors import RunError
-from grammarbt.run.journal import Journal
+from grammarbt.run.journal import Journal, Position
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from typing import Self
+    from typing import Self, TextIO
 
     from grammarbt.run.evaluate import Trial
     from grammarbt.run.folder import RunFolder
+
+_EVERY = 0.1
+"""Seconds between two lines of timing, at least."""
 
 
 class Recorder:
@@ -24,39 +27,58 @@ class Recorder:
     Args:
         folder: where they are.
         journal: open.
+        batches: how many are in the journal before the place where the run goes on.
+
+    Attributes:
+        batches: how many were recorded.
 
     Raises:
         RunError: the timing cannot be written.
     """
 
-    def __init__(self, folder: RunFolder, journal: Journal) -> None:
+    def __init__(self, folder: RunFolder, journal: Journal, batches: int = 0) -> None:
+        self.batches = batches
         self._journal = journal
         try:
-            self._timing = folder.timing.open("a", encoding="utf-8")
+            self._timing = folder.timing.open("a+", encoding="utf-8", errors="replace")
+            self._before = _last_seconds(self._timing)
         except OSError as error:
             journal.close()
             raise RunError(f"cannot write {str(folder.timing)!r}: {error.strerror}", "choose another folder") from None
         self._started = time.monotonic()
-        self._batches = 0
+        self._due = self._before + _EVERY
+        self._untimed = 0
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
         self._journal.close()
-        self._timing.close()
+        with contextlib.suppress(RunError, OSError):  # a full disk has been reported already
+            if self._untimed:
+                self._time()
+            self._timing.close()
 
     @property
     def seconds(self) -> float:
-        """Time since the beginning."""
-        return time.monotonic() - self._started
+        """Time that the run has taken so far, all its sessions together; repeating a journal takes none."""
+        return self._before + time.monotonic() - self._started
+
+    @property
+    def position(self) -> Position:
+        """Where the journal goes on."""
+        return self._journal.position
 
     def batch(self, trials: Sequence[Trial]) -> None:
         """What the searcher asked for, and what came of it."""
-        self._batches += 1
-        self._journal.append(trial_event("trial", trial) | {"batch": self._batches} for trial in trials)
-        if not self._journal.repeating:
-            self._time(sum(trial.simulated for trial in trials))
+        self.batches += 1
+        self._journal.append([trial_event("trial", trial) | {"batch": self.batches} for trial in trials])
+        if self._journal.repeating:
+            self._started = time.monotonic()
+            return
+        self._untimed += sum([trial.simulated for trial in trials])
+        if self.seconds >= self._due:
+            self._time()
 
     def selection(self, trial: Trial) -> None:
         """A candidate's episodes in the final selection."""
@@ -66,8 +88,10 @@ class Recorder:
         """Anything else."""
         self._journal.append([fields])
 
-    def _time(self, episodes: int) -> None:
-        line = {"batch": self._batches, "episodes": episodes, "seconds": round(self.seconds, 6)}
+    def _time(self) -> None:
+        seconds = self.seconds
+        line = {"batch": self.batches, "episodes": self._untimed, "seconds": round(seconds, 6)}
+        self._due, self._untimed = seconds + _EVERY, 0
         try:
             self._timing.write(json.dumps(line) + "\n")
             self._timing.flush()
@@ -80,7 +104,7 @@ def trial_event(name: str, trial: Trial) -> dict[str, object]:
     evaluation = trial.evaluation
     event: dict[str, object] = {
         "event": name,
-        "tree": format_tree(evaluation.proposal.tree),
+        "tree": trial.text,
         "start": evaluation.proposal.start,
         "stop": evaluation.proposal.stop,
         "simulated": trial.simulated,
@@ -89,3 +113,12 @@ def trial_event(name: str, trial: Trial) -> dict[str, object]:
         "ticks": evaluation.ticks,
     }
     return event | ({"error": evaluation.error} if evaluation.error else {})
+
+
+def _last_seconds(timing: TextIO) -> float:
+    """What the last line says that can be read; the clock is no part of what a run must repeat."""
+    timing.seek(0)
+    for line in reversed(timing.readlines()):
+        with contextlib.suppress(ValueError, KeyError, TypeError):
+            return max(0.0, float(json.loads(line)["seconds"]))
+    return 0.0

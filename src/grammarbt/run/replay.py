@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from itertools import islice
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
-from grammarbt.bt import format_tree
 from grammarbt.errors import RunError
-from grammarbt.run.journal import iterate_journal
+from grammarbt.run.journal import START, Position, iterate_journal
 from grammarbt.run.simulate import Simulation
 
 if TYPE_CHECKING:
@@ -15,6 +13,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from grammarbt.search import Proposal
+
+Recorded: TypeAlias = dict[str, Any]
 
 _TRIALS = ("trial", "selection")
 
@@ -25,11 +25,13 @@ class Replay:
     Args:
         path: the journal; None for a run that begins.
         keep: how many of its events count; None for all.
+        start: where to begin.
     """
 
-    def __init__(self, path: Path | None = None, keep: int | None = None) -> None:
+    def __init__(self, path: Path | None = None, keep: int | None = None, start: Position = START) -> None:
         self._path = path
-        self._events = iter(()) if path is None else _numbered(path, keep)
+        self._line = start.events
+        self._events = iter(()) if path is None else _events(path, keep, start)
         self._next = next(self._events, None)
 
     @property
@@ -40,31 +42,42 @@ class Replay:
     @property
     def out_of_time(self) -> bool:
         """Whether the clock ended the search here."""
-        return self._next is not None and self._next[1].get("stopped") == "seconds"
+        return self._next is not None and self._next.get("stopped") == "seconds"
 
-    def take(self, proposal: Proposal, missing: Sequence[int]) -> Simulation | None:
+    def take(self, proposal: Proposal, text: str, missing: Sequence[int]) -> Simulation | None:
         """What simulating the missing scenarios of a proposal gave; None when the journal has ended.
+
+        Args:
+            proposal: what the searcher asks for.
+            text: its tree in the one-line notation.
+            missing: the scenarios whose returns are not known.
 
         Raises:
             RunError: the journal has another proposal here.
         """
-        while self._next is not None and self._next[1]["event"] not in _TRIALS:
-            self._next = next(self._events, None)
-        if self._next is None:
+        while self._next is not None and self._next["event"] not in _TRIALS:
+            self._advance()
+        event = self._next
+        if event is None:
             return None
-        line, event = self._next
-        self._check(proposal, line, event)
-        self._next = next(self._events, None)
+        self._check(event, (text, proposal.start, proposal.stop))
+        self._advance()
         if event["status"] != "ok":
             return Simulation((), (), event["status"], event["error"])
-        return Simulation(tuple(event["returns"][number - proposal.start] for number in missing), tuple(event["ticks"]))
+        return Simulation(tuple([event["returns"][at - proposal.start] for at in missing]), tuple(event["ticks"]))
 
-    def _check(self, proposal: Proposal, line: int, event: dict[str, Any]) -> None:
-        asked = (format_tree(proposal.tree), proposal.start, proposal.stop)
+    def _advance(self) -> None:
+        self._line += 1
+        self._next = next(self._events, None)
+
+    def _check(self, event: Recorded, asked: tuple[str, int, int]) -> None:
         found = (event["tree"], event["start"], event["stop"])
         if asked != found:
+            # Nothing but trials stands in a journal before the selection, so a trial's number is its line.
+            line = self._line + 1
+            what = f"trial {line}" if event["event"] == "trial" else "a trial of the selection"
             raise RunError(
-                f"{self._path}, line {line}: trial {line} was {_text(*found)}, but now the searcher proposes {_text(*asked)}",
+                f"{self._path}, line {line}: {what} was {_text(*found)}, but now the searcher proposes {_text(*asked)}",
                 "resume with the versions and parameters that the run began with",
             )
 
@@ -74,12 +87,15 @@ def search_prefix(path: Path) -> int:
 
     The last batch may have been cut short by the budget.
     """
-    batches = [(number, event["batch"]) for number, event in _numbered(path, None) if event["event"] == "trial"]
-    return sum(batch != batches[-1][1] for _, batch in batches)
+    last = before = 0  # the last batch, and the events before it
+    for number, event in enumerate(_events(path, None, START)):
+        if event["event"] == "trial" and event["batch"] != last:
+            last, before = event["batch"], number
+    return before
 
 
-def _numbered(path: Path, keep: int | None) -> Iterator[tuple[int, dict[str, Any]]]:
-    return enumerate(islice(cast("Iterator[dict[str, Any]]", iterate_journal(path)), keep), 1)
+def _events(path: Path, keep: int | None, start: Position) -> Iterator[Recorded]:
+    return cast("Iterator[Recorded]", iterate_journal(path, keep, start))
 
 
 def _text(tree: str, start: int, stop: int) -> str:

@@ -12,7 +12,7 @@ from attrs import Factory, field, frozen
 from grammarbt.bt import compile_policy
 from grammarbt.domain import FIRST_VALIDATION_SCENARIO, Domain, Returns, scenario_numbers
 from grammarbt.errors import DomainError
-from grammarbt.run.simulator import Simulator, serial_simulator
+from grammarbt.run.simulator import SerialSimulator, Simulator
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -47,7 +47,7 @@ class Validator:
     domain: Domain
     seed: int
     advance: Callable[[int], None] = lambda _: None
-    simulator: Simulator = field(default=Factory(lambda self: serial_simulator(self.domain), takes_self=True))
+    simulator: Simulator = field(default=Factory(lambda self: SerialSimulator(self.domain), takes_self=True))
 
     def returns(self, tree: BehaviorTree, episodes: int) -> Returns:
         """The returns of the first scenarios, (episodes,); NaN where the simulator failed.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Executor, Future
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from attrs import frozen
 
@@ -20,13 +20,33 @@ if TYPE_CHECKING:
 
 Job: TypeAlias = tuple[BehaviorTree, Scenarios]
 
-_AHEAD = 4
-"""Jobs submitted per worker before the first result is awaited, so that no worker waits for a slow neighbour."""
+_AHEAD = 64
+"""Jobs submitted per worker before the first result is awaited, so that no worker waits for a slow neighbour, and an
+executor may send many at a time."""
+
+
+class Simulator(Protocol):
+    """Simulates jobs."""
+
+    def simulate(self, jobs: Iterable[Job]) -> Iterator[Simulation]:
+        """The results, one per job, in their order."""
+        ...
 
 
 @frozen(eq=False)
-class Simulator:
-    """Simulates jobs by an executor; a job whose process ends is tried once more.
+class SerialSimulator:
+    """Simulates one job after the other, with this domain in this process."""
+
+    domain: Domain
+
+    def simulate(self, jobs: Iterable[Job]) -> Iterator[Simulation]:
+        """The results, one per job, in their order."""
+        return (simulate_tree(self.domain, tree, scenarios) for tree, scenarios in jobs)
+
+
+@frozen(eq=False)
+class PoolSimulator:
+    """Simulates jobs side by side, with the domains of an executor's workers; a job whose process ends is tried once more.
 
     Attributes:
         submit: begins a job.
@@ -59,15 +79,10 @@ class Simulator:
 def make_simulator(domain: Domain, executor: Executor, workers: int) -> Simulator:
     """Simulations by an executor: with the domain itself in this process, with the workers' own elsewhere."""
     if isinstance(executor, SerialExecutor):
-        return Simulator(lambda tree, scenarios: executor.submit(simulate_tree, domain, tree, scenarios), 1)
-    return Simulator(
+        return SerialSimulator(domain)
+    return PoolSimulator(
         lambda tree, scenarios: executor.submit(simulate_text, format_tree(tree), scenarios), _AHEAD * workers
     )
-
-
-def serial_simulator(domain: Domain) -> Simulator:
-    """Simulations one after the other."""
-    return make_simulator(domain, SerialExecutor(), 1)
 
 
 def _awaited(future: Future[Simulation]) -> Simulation:
@@ -75,3 +90,5 @@ def _awaited(future: Future[Simulation]) -> Simulation:
         return future.result()
     except TimeoutError as error:
         return Simulation(status="timeout", error=str(error))
+    except MemoryError as error:
+        return Simulation(status="failed", error=str(error))

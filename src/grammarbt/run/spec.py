@@ -80,8 +80,10 @@ class RunSpec:
         trials: stop after so many trials.
         seconds: stop after so much time.
         target: stop when the best mean return reaches it.
+        stagnation: stop when no better tree was found for so many episodes.
         validation: episodes that the final tree and the reference are scored on.
         selection: share of the budget spent on choosing among the searcher's candidates.
+        snapshot: seconds between two snapshots of a searcher that can make them.
         set: parameters of the searcher, the domain and the executor.
     """
 
@@ -98,8 +100,10 @@ class RunSpec:
     trials: int | None = field(default=None, validator=optional(_whole(1)))
     seconds: float | None = field(default=None, validator=optional(_real(0)))
     target: float | None = field(default=None, validator=optional(_real(-inf)))
+    stagnation: int | None = field(default=None, validator=optional(_whole(1)))
     validation: int = field(default=2_000, validator=_whole(2, 2**30))
     selection: float = field(default=0.1, validator=_real(0, 0.9))
+    snapshot: float = field(default=60.0, validator=_real(0))
     set: Mapping[Part, Mapping[str, object]] = field(factory=dict, validator=_settings)
 
     @property

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from grammarbt.bt import BehaviorTree
     from grammarbt.plugins import Registry
 
-_MAX_PATH = 1_000
-
 
 def load_tree(text: str, registry: Registry) -> BehaviorTree:
     """The tree that a text means: a run's best, a file's, or the notation itself.
@@ -25,17 +23,20 @@ def load_tree(text: str, registry: Registry) -> BehaviorTree:
     Raises:
         GrammarBTError: there is no such file, or what it holds is no tree.
     """
-    if len(text) < _MAX_PATH and "\0" not in text:
-        path = Path(text)
-        if path.is_dir():
-            return _best_of(path)
-        if path.exists():
-            return _from_file(path, registry)
-        if not any(bracket in text for bracket in "[("):
-            raise RunError(
-                f"there is no file {text!r}, and it is no notation", "a leaf is written [action] or (condition)"
-            )
+    path = _existing(text)
+    if path is not None:
+        return _best_of(path) if path.is_dir() else _from_file(path, registry)
+    if not any(bracket in text for bracket in "[("):
+        raise RunError(f"there is no file {text!r}, and it is no notation", "a leaf is written [action] or (condition)")
     return parse(text)
+
+
+def _existing(text: str) -> Path | None:
+    """The file or folder of that name, if there is one."""
+    try:
+        return Path(text) if Path(text).exists() else None
+    except (OSError, ValueError):  # notation may be longer than a name can be, and hold what no name can
+        return None
 
 
 def _best_of(path: Path) -> BehaviorTree:

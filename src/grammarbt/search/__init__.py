@@ -1,14 +1,19 @@
 """Searching a language of trees: the protocol, and the building blocks that searchers share."""
 
 from grammarbt.search.bandits import Arm, Bandit, BanditName, ThresholdAscent, Ucb1, make_bandit
-from grammarbt.search.base import Evaluation, EvaluationStatus, Proposal, SearchContext, Searcher
+from grammarbt.search.base import Evaluation, EvaluationStatus, Proposal, SearchContext, Searcher, Snapshotting
 from grammarbt.search.batches import Batches, BatchSearcher, Scenarios, Strategy, Width
 from grammarbt.search.behaviours import behaviour_of
 from grammarbt.search.blocks import Behaviour, BlockDag, BlockNode, Piece, piece_of
 from grammarbt.search.derivations import Step, block_derivations, leftmost, position_of
+from grammarbt.search.evolution import Evolution, EvolutionParameters
 from grammarbt.search.fame import HallOfFame
+from grammarbt.search.moves import DerivationTree, Moves, pick
 from grammarbt.search.race import Runner, closes, differences, judge, next_stage
 from grammarbt.search.rootlist import ListedTree, RootList
+from grammarbt.search.scoring import Score, Scorer
+from grammarbt.search.smallest import smallest_first
+from grammarbt.search.states import State, States, Transition, Walk
 from grammarbt.search.trim import reached_positions, trimmed
 
 __all__ = [
@@ -20,21 +25,32 @@ __all__ = [
     "Behaviour",
     "BlockDag",
     "BlockNode",
+    "DerivationTree",
     "Evaluation",
     "EvaluationStatus",
+    "Evolution",
+    "EvolutionParameters",
     "HallOfFame",
     "ListedTree",
+    "Moves",
     "Piece",
     "Proposal",
     "RootList",
     "Runner",
     "Scenarios",
+    "Score",
+    "Scorer",
     "SearchContext",
     "Searcher",
+    "Snapshotting",
+    "State",
+    "States",
     "Step",
     "Strategy",
     "ThresholdAscent",
+    "Transition",
     "Ucb1",
+    "Walk",
     "Width",
     "behaviour_of",
     "block_derivations",
@@ -44,8 +60,10 @@ __all__ = [
     "leftmost",
     "make_bandit",
     "next_stage",
+    "pick",
     "piece_of",
     "position_of",
     "reached_positions",
+    "smallest_first",
     "trimmed",
 ]

@@ -6,7 +6,7 @@ The run owns the loop, so pools, caches, budgets, journals and resume stay out o
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Literal, Protocol, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from attrs import frozen
@@ -95,4 +95,21 @@ class Searcher(Protocol):
 
     def metrics(self) -> Mapping[str, float]:
         """Figures about the search so far, such as nodes or restarts."""
+        ...
+
+
+@runtime_checkable
+class Snapshotting(Searcher, Protocol):
+    """A searcher that can say where it stands, so that a resumed run need not replay all that came before.
+
+    A searcher that asks and learns fast gains little: replaying simulates nothing. The state of `SearchContext.rng` is kept
+    by the run; everything else that decides what is proposed next belongs into the snapshot, in the same order.
+    """
+
+    def snapshot(self) -> Mapping[str, Any]:
+        """Where the search stands after `tell` and before the next `ask`, in what JSON can hold."""
+        ...
+
+    def restore(self, state: Mapping[str, Any]) -> None:
+        """Bring a searcher that was just made, with the same context and parameters, to where another one stood."""
         ...

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING
 
 from attrs import define
 
+from grammarbt.bt import format_tree, parse
 from grammarbt.search.base import Evaluation, Proposal, SearchContext
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+    from typing import Any
 
     from grammarbt.bt import BehaviorTree
     from grammarbt.domain import NoParameters
@@ -38,6 +40,7 @@ class RandomSearch:
     def __init__(self, context: SearchContext, parameters: NoParameters) -> None:
         del parameters
         self._grammar = context.grammar
+        self._origin = context.grammar.start()
         self._rng = context.rng
         self._records: dict[BehaviorTree, _Record] = {}
         self._proposed = 0
@@ -65,12 +68,23 @@ class RandomSearch:
         """How many trees were drawn."""
         return {"trees": float(self._proposed)}
 
+    def snapshot(self) -> Mapping[str, Any]:
+        """The trees remembered, and how many were drawn."""
+        records = [[format_tree(tree), record.episodes, record.mean] for tree, record in self._records.items()]
+        return {"records": records, "proposed": self._proposed}
+
+    def restore(self, state: Mapping[str, Any]) -> None:
+        """Remember what another one did, whose start tree has been tried."""
+        self._records = {parse(text): _Record(episodes, mean) for text, episodes, mean in state["records"]}
+        self._proposed = state["proposed"]
+        self._start = None
+
     def _propose(self) -> Proposal:
         if self._start is not None:
             tree, self._start = self._start, None
             return Proposal(tree)
-        derivation = self._grammar.sample(self._rng)
-        tree = self._grammar.tree(self._grammar.derive(derivation))
+        derivation, word = self._grammar.leftmost.random_walk(self._origin, self._rng)
+        tree = self._grammar.tree_of(word)
         record = self._records.get(tree)
         start = record.episodes if record else 0
         return Proposal(tree, derivation, start, start + 1)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from grammarbt.bt.layout import numbered
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not
+from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not, numbered
 from grammarbt.bt.notation import leaf_text, operator
 
 _HEAD = ["digraph tree {", "  ordering=out", '  node [fontname="sans-serif"]', "  edge [arrowhead=none]"]

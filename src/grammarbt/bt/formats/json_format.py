@@ -11,7 +11,7 @@ import json
 from typing import Any
 
 from grammarbt.bt.formats.building import check_level, control_node
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Fallback, Node, Not, Parallel, Sequence
+from grammarbt.bt.model import MAX_DEPTH, Action, BehaviorTree, Condition, Fallback, Node, Not, Parallel, Sequence
 from grammarbt.errors import FormatError, NotationError
 
 VERSION = 1
@@ -36,8 +36,12 @@ def loads(text: str) -> BehaviorTree:
         raise FormatError(
             f"not JSON: {error.msg}, line {error.lineno} column {error.colno}", "compare an export"
         ) from None
-    except (ValueError, RecursionError) as error:
-        raise FormatError(f"not a tree in JSON: {str(error) or 'too deep'}", "compare an export") from None
+    except RecursionError:
+        raise FormatError(
+            f"the JSON is nested deeper than a tree of {MAX_DEPTH} levels", "no tree needs that"
+        ) from None
+    except ValueError as error:
+        raise FormatError(f"not a tree in JSON: {error}", "compare an export") from None
     if not isinstance(data, dict) or data.get("grammarbt") != VERSION:
         raise FormatError(f'not a tree in JSON: no "grammarbt": {VERSION} at the top', "compare an export")
     return _decode(data.get("tree"), "tree", 1)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from grammarbt.bt.layout import numbered
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not
+from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not, numbered
 from grammarbt.bt.notation import leaf_text, operator
 
 _SPECIAL = re.compile(r"[!-/:-@\[-^`{-~]")

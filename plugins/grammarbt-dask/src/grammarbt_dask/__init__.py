@@ -1,0 +1,1 @@
+"""Simulations side by side on dask.distributed."""

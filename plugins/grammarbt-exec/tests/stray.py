@@ -1,0 +1,94 @@
+"""A simulator with one fault; the return of a scenario is its number.
+
+python stray.py FAULT [MARK [EVERY]]: shows the fault at its second request, or at all whose id EVERY divides. With a
+file MARK it has a child, and adds a line with the numbers of both processes to the file.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ANNOUNCEMENT = {
+    "protocol": 1,
+    "groups": [
+        {
+            "name": "g",
+            "actions": ["stay", {"name": "go", "parameters": {"to": ["home", "work"]}, "results": ["running"]}],
+            "conditions": ["far", {"name": "near", "pure": True, "help": "within a step"}],
+        }
+    ],
+    "references": [{"name": "manual", "tree": "?( (near) [stay] )"}],
+}
+
+
+def say(text, end="\n"):
+    sys.stdout.write(text + end)
+    sys.stdout.flush()
+
+
+def raw(data):
+    sys.stdout.buffer.write(data)
+    sys.stdout.buffer.flush()
+
+
+def die():
+    sys.stderr.write("first sign\nlast words\n")
+    sys.stderr.flush()
+    os._exit(3)
+
+
+def answer(request, **changes):
+    fine = {"id": request["id"], "returns": [float(number) for number in request["scenarios"]]}
+    return json.dumps(fine | changes)
+
+
+FAULTS = {
+    "dies": lambda _: die(),
+    "crashes": lambda _: os.kill(os.getpid(), signal.SIGSEGV),
+    "hangs": lambda _: time.sleep(600),
+    "partial": lambda request: (say(answer(request)[:12], end=""), time.sleep(600)),
+    "halves": lambda request: (say(answer(request)[:12], end=""), time.sleep(0.1), say(answer(request)[12:])),
+    "closes": lambda _: (os.close(1), time.sleep(600)),
+    "garbage": lambda _: say("Segmentation fault (not really)"),
+    "no object": lambda _: say("[1,2,3]"),
+    "wrong id": lambda request: say(answer(request, id=request["id"] + 1)),
+    "no id": lambda request: say(json.dumps({"returns": [0] * len(request["scenarios"])})),
+    "too few": lambda request: say(answer(request, returns=[1.0])),
+    "texts": lambda request: say(answer(request, returns=["1", "2", "3"])),
+    "nan": lambda request: say(answer(request, returns=[1.0, float("nan"), 2.0])),
+    "infinite": lambda request: say(answer(request, returns=[1.0, 10**400, 2.0])),
+    "wrong ticks": lambda request: say(answer(request, ticks=[1])),
+    "half ticks": lambda request: say(answer(request, ticks=[1, 0.5, 1])),
+    "two lines": lambda request: say(answer(request) + "\nand another thing"),
+    "latin": lambda _: raw("d\xe9j\xe0 vu\n".encode("latin-1")),
+    "deep": lambda _: say("[" * 200_000),
+    "huge": lambda _: (say("x" * 17 * 2**20), time.sleep(600)),
+    "chatty": lambda request: (sys.stderr.write("log\n" * 100_000), say(answer(request))),
+    "refuses": lambda request: say(json.dumps({"id": request["id"], "error": "no such robot"})),
+}
+
+
+def main(fault, mark="-", every="0"):
+    announcement = ANNOUNCEMENT
+    if fault == "changes" and Path(mark).exists():
+        announcement = ANNOUNCEMENT | {"grammar": "scheide"}
+    if mark != "-":
+        child = subprocess.Popen(["sleep", "600"])  # noqa: S607 - any program that stays will do
+        with Path(mark).open("a") as file:
+            file.write(f"{os.getpid()} {child.pid}\n")
+    say(json.dumps(announcement))
+    for number, line in enumerate(sys.stdin):
+        request = json.loads(line)
+        due = request["id"] % int(every) == 0 if int(every) else number == 1
+        if due and fault != "none":
+            FAULTS.get(fault, lambda _: die())(request)
+        else:
+            say(answer(request))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1].replace("-", " "), *sys.argv[2:])

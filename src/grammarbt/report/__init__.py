@@ -1,0 +1,1 @@
+"""What runs amounted to: histories, statistics, tables and pictures."""

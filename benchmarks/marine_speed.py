@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
 from time import process_time
 from typing import TYPE_CHECKING
 
@@ -11,16 +9,22 @@ import numpy as np
 
 from grammarbt.bt import compile_policy, parse
 from grammarbt_marine.domain import Marine
+from grammarbt_marine.parameters import MarineParameters
+from grammarbt_marine.plain import PlainMarine
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from grammarbt.bt import Policy
 
-sys.path.append(str(Path(__file__).parents[1] / "plugins" / "grammarbt-marine" / "tests"))
-
 COMPILED, PLAIN = 10_000, 200
-ROW = "{:<14}{:>18}{:>18}{:>18}{:>8}"
+WORLDS = {
+    "default": MarineParameters(),
+    "sparse": MarineParameters("sparse"),
+    "scheide": MarineParameters("scheide"),
+    "default, 2 robots": MarineParameters(robots=2),
+}
+ROW = "{:<19}{:<14}{:>18}{:>18}{:>18}{:>8}"
 
 
 def speed(episodes: int, simulate: Callable[..., object], *arguments: object) -> float:
@@ -37,22 +41,25 @@ def one_by_one(marine: Marine, policy: Policy) -> None:
         marine.simulate(policy, np.array([scenario]))
 
 
-def main() -> None:
-    """Print a table with a row per tree."""
-    from marine_reference import PlainMarine  # noqa: PLC0415 - a module of the plugin's tests, findable only now
-
-    marine = Marine()
+def print_rows(world: str, parameters: MarineParameters) -> None:
+    """Print a row per tree."""
+    marine = Marine(parameters)
     plain = PlainMarine(marine)
     trees = {reference.name: parse(reference.tree) for reference in marine.references}
     trees["random walk"] = parse("[random walk]")
-    print("episodes per second")
-    print(ROW.format("tree", "compiled, batch", "compiled, single", "plain Python", "ratio"))
     for name, tree in trees.items():
         policy = compile_policy(tree, marine.vocabulary.index)
         batch = speed(COMPILED, marine.simulate, policy, np.arange(COMPILED))
         single = speed(COMPILED, one_by_one, marine, policy)
         slow = speed(PLAIN, plain.simulate, tree, range(PLAIN))
-        print(ROW.format(name, f"{batch:,.0f}", f"{single:,.0f}", f"{slow:,.0f}", f"{batch / slow:.0f}"))
+        print(ROW.format(world, name, f"{batch:,.0f}", f"{single:,.0f}", f"{slow:,.0f}", f"{batch / slow:.0f}"))
+
+
+def main() -> None:
+    """Print a table of episodes per second."""
+    print(ROW.format("world", "tree", "compiled, batch", "compiled, single", "plain Python", "ratio"))
+    for world, parameters in WORLDS.items():
+        print_rows(world, parameters)
 
 
 if __name__ == "__main__":

@@ -73,7 +73,7 @@ def overhead(trials: int, milliseconds: float) -> None:
     """Processor time per trial, in which the domain, the searcher and the rest are told apart."""
     print("simulation      trials  simulating  searching  framework   framework's share")
     for seconds in (0.0, milliseconds / 1_000):
-        number = trials if seconds == 0.0 else min(trials, 2_000)
+        number = trials if seconds == 0.0 else min(trials, 5_000)
         with tempfile.TemporaryDirectory() as scratch:
             spec = _spec(Path(scratch) / "run", number, set={"domain": {"seconds": seconds}})
             setup = prepare(spec, Registry(PluginHost(PluginOptions(), print)))

@@ -111,6 +111,20 @@ def test_the_start_tree_is_tried_first(tmp_path):
     assert read_journal(tmp_path / "run" / "journal.jsonl")[0]["tree"] == tree
 
 
+def test_stopping_rules_combine_and_the_journal_says_which_held(tmp_path):
+    folder = tmp_path / "run"
+    assert run(*FAST, "--stagnation", "20", "--trials", "190", "--quiet", "--out", str(folder)).returncode == 0
+    events = read_journal(folder / "journal.jsonl")
+    (searched,) = (event for event in events if event["event"] == "searched")
+    assert searched["stopped"] == "stagnation"
+    assert 20 <= searched["episodes"] < 190
+
+
+def test_more_workers_than_trees_at_a_time_are_one_line_of_warning(tmp_path):
+    done = run(*FAST, "--workers", "2", "--trials", "4", "--quiet", "--out", str(tmp_path / "run"))
+    assert done.stderr == "warning: with --batch 1, 2 workers search no faster than 1\n"
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

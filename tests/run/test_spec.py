@@ -21,6 +21,8 @@ specs = st.builds(
     seed=st.integers(0, 2**31 - 1),
     trials=st.none() | numbers,
     target=st.none() | st.floats(allow_nan=False, allow_infinity=False),
+    stagnation=st.none() | numbers,
+    snapshot=st.floats(0, 1e9),
     set=settings.map(lambda parts: {part: given for part, given in parts.items() if given}),
 )
 
@@ -40,6 +42,8 @@ def test_a_spec_reads_back_from_its_toml(spec, tmp_path_factory):
         ("budget = true", "budget must be a whole number"),
         ("budgte = 5", "unknown field 'budgte'"),
         ("domain = 3", "domain must be a text"),
+        ("stagnation = 0", "stagnation cannot be 0"),
+        ("snapshot = -1", "snapshot cannot be -1"),
         ("selection = 0.95", "selection cannot be"),
         ("seed = 4000000000", "seed cannot be"),
         ("set = 3", "settings must be tables"),

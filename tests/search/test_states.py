@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grammarbt.search import States
@@ -13,6 +13,7 @@ def states(grammars):
     return {name: States(grammar) for name, grammar in grammars.items()}
 
 
+@settings(deadline=None, max_examples=50)  # what a grammar's first states cost is not what is tested
 @given(data=st.data(), seed=st.integers(0, 2**32))
 def test_a_walk_offers_the_legal_productions_of_the_leftmost_form(grammars, states, data, seed):
     name = data.draw(st.sampled_from(sorted(grammars)))
@@ -27,6 +28,7 @@ def test_a_walk_offers_the_legal_productions_of_the_leftmost_form(grammars, stat
     assert grammar.derive(tuple(walk.derivation)).symbols == tuple(s for s in form.symbols if s >= 0)
 
 
+@settings(deadline=None, max_examples=50)  # what a grammar's first states cost is not what is tested
 @given(data=st.data(), seed=st.integers(0, 2**32))
 def test_a_whole_derivation_spells_its_tree(grammars, states, data, seed):
     name = data.draw(st.sampled_from(sorted(grammars)))

@@ -127,7 +127,8 @@ def start():
     started = []
 
     def start(*line):
-        started.append(subprocess.Popen([sys.executable, "-m", *line], stderr=subprocess.PIPE, text=True))
+        command = [sys.executable, "-m", *line]
+        started.append(subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True))
         return started[-1]
 
     yield start
@@ -136,7 +137,7 @@ def start():
         process.communicate()
 
 
-def wait_for(condition, seconds=60):
+def wait_for(condition, seconds=120):
     deadline = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < deadline
@@ -164,15 +165,24 @@ def kill_one(processes):
 
 def test_workers_killed_midway_change_no_byte(start, tmp_path):
     whole, killed, marks = tmp_path / "whole", tmp_path / "killed", tmp_path / "marks"
-    assert start(*slow_run(whole)).wait(60) == 0
+    assert start(*slow_run(whole)).wait(120) == 0
     dask = ["--executor", "dask", "--workers", "2", "--set", f"domain.marks={marks}"]
     process = start(*slow_run(killed, *dask))
     for progress in (20, 80):
         wait_for(lambda: trials(killed / "journal.jsonl") >= progress)  # noqa: B023 - awaited at once
         kill_one(int(number) for number in marks.read_text().split() if int(number) != process.pid)
-    assert process.wait(60) == 0
+    assert process.wait(120) == 0
     assert len(marks.read_text().split()) >= 5
     assert (killed / "journal.jsonl").read_bytes() == (whole / "journal.jsonl").read_bytes()
+
+
+def test_ctrl_c_in_a_terminal_ends_a_run_with_one_line(start, tmp_path):
+    process = start(*slow_run(tmp_path / "run", "--executor", "dask", "--workers", "2"))
+    wait_for(lambda: trials(tmp_path / "run" / "journal.jsonl") >= 20)
+    os.killpg(process.pid, signal.SIGINT)
+    errors = process.communicate(timeout=120)[1].splitlines()
+    assert process.returncode == 130
+    assert list(filter(None, errors)) == [f"interrupted; go on with: grammarbt resume {tmp_path / 'run'}"]
 
 
 @pytest.fixture
@@ -199,12 +209,12 @@ def cluster(start, free_port):
 
 def test_a_run_whose_scheduler_is_killed_says_so_and_goes_on_later(start, cluster, tmp_path):
     whole, cut = tmp_path / "whole", tmp_path / "cut"
-    assert start(*slow_run(whole)).wait(60) == 0
+    assert start(*slow_run(whole)).wait(120) == 0
     scheduler = cluster()
     process = start(*slow_run(cut, "--executor", "dask", "--set", f"executor.address={cluster.address}"))
     wait_for(lambda: trials(cut / "journal.jsonl") >= 40)
     scheduler.kill()
-    errors = process.communicate(timeout=60)[1].splitlines()
+    errors = process.communicate(timeout=120)[1].splitlines()
     assert process.returncode == 2
     assert errors == [
         "error: the connection to the dask scheduler is lost",
@@ -212,7 +222,7 @@ def test_a_run_whose_scheduler_is_killed_says_so_and_goes_on_later(start, cluste
     ]
     assert 40 <= trials(cut / "journal.jsonl") < trials(whole / "journal.jsonl")
     cluster()
-    assert start("grammarbt", "resume", str(cut), "--quiet").wait(60) == 0
+    assert start("grammarbt", "resume", str(cut), "--quiet").wait(120) == 0
     assert (cut / "journal.jsonl").read_bytes() == (whole / "journal.jsonl").read_bytes()
 
 

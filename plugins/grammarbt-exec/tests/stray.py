@@ -50,6 +50,8 @@ FAULTS = {
     "dies": lambda _: die(),
     "crashes": lambda _: os.kill(os.getpid(), signal.SIGSEGV),
     "hangs": lambda _: time.sleep(600),
+    "dribbles": lambda _: [(say(".", end=""), time.sleep(0.01)) for _ in range(10_000)],
+    "floods": lambda _: [sys.stderr.write("flood\n") for _ in range(10_000_000)],
     "partial": lambda request: (say(answer(request)[:12], end=""), time.sleep(600)),
     "halves": lambda request: (say(answer(request)[:12], end=""), time.sleep(0.1), say(answer(request)[12:])),
     "closes": lambda _: (os.close(1), time.sleep(600)),

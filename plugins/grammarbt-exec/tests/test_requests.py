@@ -1,6 +1,8 @@
 """A request says everything about a tree, three times, and each says the same."""
 
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 from hypothesis import given
@@ -98,3 +100,16 @@ def test_the_same_question_has_the_same_id_and_another_one_another():
     tree, other = parse("?( [a] (a) )"), parse("→( [a] (a) )")
     assert request_for(tree)["id"] == request_for(tree)["id"]
     assert len({request_for(tree)["id"], request_for(other)["id"], request_for(tree, (1,))["id"]}) == 3
+
+
+def test_the_table_in_the_reference_is_that_of_its_tree():
+    page = (Path(__file__).parents[3] / "docs" / "reference" / "exec-protocol.md").read_text(encoding="utf-8")
+    tree = parse(re.search(r"^For `(.+)` that is$", page, re.MULTILINE)[1])
+    rows = re.findall(r"^    (\w+) +(\d+) +(\S+) +(\S+) +−3", page, re.MULTILINE)
+    index = {leaf: number for number, leaf in enumerate(leaves(tree))}
+    policy = compile_policy(tree, index)
+    shown = [
+        (list(index)[row[0]].name, *map(str, row[1:]))
+        for row in zip(policy.leaf, policy.occurrence, policy.on_success, policy.on_failure, strict=True)
+    ]
+    assert shown == [(name, *(number.replace("−", "-") for number in numbers)) for name, *numbers in rows]

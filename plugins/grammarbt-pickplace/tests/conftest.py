@@ -1,16 +1,11 @@
 """What it takes to simulate a tree in notation."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from grammarbt.bt import compile_policy, parse
 from grammarbt_pickplace.domain import PickPlace
 from grammarbt_pickplace.parameters import PickPlaceParameters
-
-sys.path.append(str(Path(__file__).parent))  # test folders are no packages; pickplace_reference is found this way
 
 
 @pytest.fixture(scope="session")

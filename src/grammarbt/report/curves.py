@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 from collections.abc import Sequence
 from pathlib import Path
@@ -56,7 +57,8 @@ def measure_curve(history: History, validator: Validator, budget: int, episodes:
     if known is None:
         known = tuple(_measured(history.improvements, validator, checkpoints(budget), episodes))
         content = {"budget": budget, "episodes": episodes, "points": [asdict(point) for point in known]}
-        path.write_text(json.dumps(content, ensure_ascii=False) + "\n", encoding="utf-8")
+        with contextlib.suppress(OSError):  # what cannot be kept is measured again
+            path.write_text(json.dumps(content, ensure_ascii=False) + "\n", encoding="utf-8")
     return known
 
 

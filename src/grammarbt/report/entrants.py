@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from grammarbt.report.comparison import Entrant
@@ -10,6 +12,7 @@ from grammarbt.report.curves import Point, measure_curve
 from grammarbt.run.score import Validator
 
 if TYPE_CHECKING:
+    from grammarbt.domain import Domain
     from grammarbt.plugins import Registry
     from grammarbt.report.history import History
 
@@ -44,10 +47,21 @@ def curve_measurer(registry: Registry, episodes: int) -> Callable[[History], Seq
     """Measures runs' curves on fresh worlds, `episodes` per point."""
 
     def measure(history: History) -> Sequence[Point]:
-        domain = registry.make_domain(history.domain, _given(history, "domain"))
-        return measure_curve(history, Validator(domain, history.seed), int(history.resolved["budget"]), episodes)
+        validator = Validator(domain_of(history, registry), history.seed)
+        return measure_curve(history, validator, int(history.resolved["budget"]), episodes)
 
     return measure
+
+
+def domain_of(history: History, registry: Registry) -> Domain:
+    """The run's domain, with the parameters it had; a file's path means what it meant where the run began.
+
+    Raises:
+        GrammarBTError: it cannot be made here.
+    """
+    began = Path(str(history.resolved.get("directory", "")))
+    with contextlib.chdir(began if began.is_dir() else Path()):
+        return registry.make_domain(history.domain, _given(history, "domain"))
 
 
 def _given(history: History, part: str) -> dict[str, object]:

@@ -19,6 +19,9 @@ Recorded: TypeAlias = Mapping[str, Any]
 _MOST_TREES = 200_000
 """Trees whose returns are added up; beyond, a tree is judged by its latest trial alone."""
 
+_MOST_FAILURES = 50
+"""Failures that are kept; the others are counted."""
+
 
 @frozen
 class Improvement:
@@ -35,6 +38,23 @@ class Improvement:
     trial: int
     tree: str
     mean: float
+
+
+@frozen
+class Failure:
+    """A trial that gave no return.
+
+    Attributes:
+        trial: which, from 1.
+        tree: in the one-line notation.
+        status: how it failed.
+        error: why.
+    """
+
+    trial: int
+    tree: str
+    status: str
+    error: str
 
 
 @frozen
@@ -57,6 +77,7 @@ class History:
         resolved: what `run.json` says.
         improvements: every new incumbent, in order.
         statuses: trials by status.
+        failures: the first that gave no return.
         trials: in all.
         episodes: simulated in all, the final selection included.
         stopped: why the search ended; None if it has not.
@@ -69,6 +90,7 @@ class History:
     resolved: Recorded
     improvements: tuple[Improvement, ...]
     statuses: Mapping[str, int]
+    failures: tuple[Failure, ...]
     trials: int
     episodes: int
     stopped: str | None
@@ -90,6 +112,18 @@ class History:
     def seed(self) -> int:
         """The run's seed."""
         return int(self.resolved["seed"])
+
+    @property
+    def title(self) -> str:
+        """What to call it."""
+        return f"{self.searcher} on {self.domain}, seed {self.seed}"
+
+    @property
+    def tree(self) -> str | None:
+        """The final tree, or while there is none the best so far; in the one-line notation."""
+        if self.best is not None:
+            return self.best.tree
+        return self.improvements[-1].tree if self.improvements else None
 
     @property
     def best(self) -> Measured | None:
@@ -117,7 +151,7 @@ def read_history(path: Path) -> History:
     """
     folder = RunFolder(path)
     resolved = cast("Recorded", folder.read_resolved())
-    reader = _Reader()
+    reader = Reader()
     if folder.journal.exists():
         reader.read(cast("Iterable[Recorded]", iterate_journal(folder.journal)))
     return reader.history(path, resolved)
@@ -136,10 +170,13 @@ def read_histories(paths: Iterable[Path]) -> list[History]:
 
 
 @define
-class _Reader:
+class Reader:
+    """Reads a run event by event."""
+
     incumbent: Incumbent = field(factory=Incumbent)
     improvements: list[Improvement] = field(factory=list)
     statuses: Counter[str] = field(factory=Counter)
+    failures: list[Failure] = field(factory=list)
     episodes: int = 0
     stopped: str | None = None
     validations: list[Measured] = field(factory=list)
@@ -169,12 +206,18 @@ class _Reader:
         self.episodes += event["simulated"]
         returns = event["returns"]
         if not returns:
+            self._failure(event)
             return
         tree, fresh = event["tree"], returns[len(returns) - event["simulated"] :]
         total, episodes = self._added(tree, fresh, returns)
         if self.incumbent.consider(tree, total / episodes, episodes, fresh):
             number = self.statuses.total()
             self.improvements.append(Improvement(self.episodes, number, tree, total / episodes))
+
+    def _failure(self, event: Recorded) -> None:
+        if len(self.failures) < _MOST_FAILURES:
+            number = self.statuses.total()
+            self.failures.append(Failure(number, event["tree"], event["status"], event.get("error", "")))
 
     def _added(self, tree: str, fresh: list[float], returns: list[float]) -> tuple[float, int]:
         total, episodes = self.totals.get(tree, (0.0, 0))
@@ -190,6 +233,7 @@ class _Reader:
             resolved,
             tuple(self.improvements),
             dict(self.statuses),
+            tuple(self.failures),
             self.statuses.total(),
             self.episodes,
             self.stopped,

@@ -136,8 +136,7 @@ class _Run:
         return self.result(best, stopped)
 
     def search(self) -> str:
-        self.watcher.phase("searching", self.spec.search_episodes)
-        self.watcher.advance(self.tally.episodes)
+        self.watcher.phase("searching", self.spec.search_episodes - self.tally.episodes)
         try:
             reason = AskTellLoop(self.setup.searcher, self.evaluator, self.spec, self.tally, self).run()
         finally:

@@ -85,7 +85,9 @@ class Camera:
         self._due = end + max(self._setup.spec.snapshot, (end - now) / SHARE)
 
     def _snapshot(self, searcher: Snapshotting) -> Snapshot:
-        cache = {key.hex(): ([*known.returns], [*known.returns.values()]) for key, known in self._evaluator.cache.items()}
+        cache = {
+            key.hex(): ([*known.returns], [*known.returns.values()]) for key, known in self._evaluator.cache.items()
+        }
         rng = cast("dict[str, Any]", self._setup.rng.bit_generator.state)
         versions = cast("dict[str, str]", self._setup.resolved["versions"])
         position, batches = self._recorder.position, self._recorder.batches

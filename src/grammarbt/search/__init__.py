@@ -1,22 +1,28 @@
 """Searching a language of trees: the protocol, and the building blocks that searchers share."""
 
+from grammarbt.search.annealing import AnnealedSearch
 from grammarbt.search.bandits import Arm, Bandit, BanditName, ThresholdAscent, Ucb1, make_bandit
 from grammarbt.search.base import Evaluation, EvaluationStatus, Proposal, SearchContext, Searcher, Snapshotting
 from grammarbt.search.batches import Batches, BatchSearcher, Scenarios, Strategy, Width
 from grammarbt.search.behaviours import behaviour_of
 from grammarbt.search.blocks import Behaviour, BlockDag, BlockNode, Piece, piece_of
 from grammarbt.search.derivations import Step, block_derivations, leftmost, position_of
+from grammarbt.search.edits import Edits, Site
 from grammarbt.search.evolution import Evolution, EvolutionParameters
 from grammarbt.search.fame import HallOfFame
+from grammarbt.search.general import GeneralSearch
 from grammarbt.search.moves import DerivationTree, Moves, pick
 from grammarbt.search.race import Runner, closes, differences, judge, next_stage
 from grammarbt.search.rootlist import ListedTree, RootList
+from grammarbt.search.rows import Item, Row, Rows
 from grammarbt.search.scoring import Score, Scorer
+from grammarbt.search.short import ShortFirst
 from grammarbt.search.smallest import smallest_first
 from grammarbt.search.states import State, States, Transition, Walk
 from grammarbt.search.trim import reached_positions, trimmed
 
 __all__ = [
+    "AnnealedSearch",
     "Arm",
     "Bandit",
     "BanditName",
@@ -26,22 +32,29 @@ __all__ = [
     "BlockDag",
     "BlockNode",
     "DerivationTree",
+    "Edits",
     "Evaluation",
     "EvaluationStatus",
     "Evolution",
     "EvolutionParameters",
+    "GeneralSearch",
     "HallOfFame",
+    "Item",
     "ListedTree",
     "Moves",
     "Piece",
     "Proposal",
     "RootList",
+    "Row",
+    "Rows",
     "Runner",
     "Scenarios",
     "Score",
     "Scorer",
     "SearchContext",
     "Searcher",
+    "ShortFirst",
+    "Site",
     "Snapshotting",
     "State",
     "States",

@@ -102,20 +102,23 @@ class Evolution(Generic[Genome]):
     def batches(self, width: Width) -> Batches[None]:
         """Generation after generation; ends when no genome can be found that was not simulated yet."""
         del width  # a generation is wide enough
-        genomes = self.species.first(self.size)
+        first = self.species.first(self.size)
+        genomes = [(self.species.derivation(genome), genome) for genome in first]
         while genomes:
-            scores = yield from self.scorer.score([self.species.derivation(genome) for genome in genomes])
-            population = [Individual(genome, score) for genome, score in zip(genomes, scores, strict=True)]
+            scores = yield from self.scorer.score([derivation for derivation, _ in genomes])
             self.generations += 1
-            genomes = self._next(population)
+            genomes = self._next(
+                [Individual(genome, score) for (_, genome), score in zip(genomes, scores, strict=True)]
+            )
 
-    def _next(self, population: Sequence[Individual[Genome]]) -> list[Genome]:
-        best = {one.score.derivation: one for one in sorted(population, key=self._sure)}
-        elites = [one.genome for one in list(best.values())[::-1][: int(self.parameters.elites * self.size)]]
+    def _next(self, population: Sequence[Individual[Genome]]) -> list[tuple[Derivation, Genome]]:
+        """The elites and their children; nobody if there is nothing new to be found."""
+        best = {one.score.derivation: one.genome for one in sorted(population, key=self._sure)}
+        elites = list(best.items())[::-1][: int(self.parameters.elites * self.size)]
         children: dict[Derivation, Genome] = {}
         while len(children) < self.size - len(elites) and (child := self._new_child(population, children)):
             children[child[0]] = child[1]
-        return elites + list(children.values()) if children else []
+        return [*elites, *children.items()] if children else []
 
     def _sure(self, one: Individual[Genome]) -> float:
         return self.scorer.sure(one.score)

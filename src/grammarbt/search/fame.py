@@ -20,7 +20,12 @@ class Record:
 
 
 class HallOfFame:
-    """The best trees by what is sure about them: mean less one standard error, with a spread common to all trees."""
+    """The best trees by what is sure about them: mean less one standard error, with a spread common to all trees.
+
+    Attributes:
+        records: by tree.
+        observed: the returns that the spread is that of; none where returns are certain.
+    """
 
     def __init__(self, size: int = 64) -> None:
         self.size = size
@@ -45,4 +50,4 @@ class HallOfFame:
         return sorted(self.records.values(), key=lambda record: self._error(record) - record.mean)
 
     def _error(self, record: Record) -> float:
-        return float((self.observed.variance / record.episodes) ** 0.5)
+        return float((self.observed.variance / record.episodes) ** 0.5) if self.observed.visits else 0.0

@@ -9,6 +9,7 @@ import dask
 from distributed import Client, LocalCluster
 
 from grammarbt.errors import RunError
+from grammarbt_dask.worker import Shield
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -72,6 +73,8 @@ class Cluster:
             raise RunError(f"there is no dask scheduler at {self._name}", "check executor.address") from error
         try:
             client.wait_for_workers(1, timeout=parameters.patience)
+            if self._local is not None:
+                client.register_plugin(Shield())
             client.register_plugin(self._warmer)
         except TimeoutError:
             client.close()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import signal
 from collections.abc import Callable, Sequence
 from threading import Lock
 from typing import TypeAlias, cast
@@ -52,6 +53,17 @@ class Warmer(WorkerPlugin):
             _warm = ""
             self._initializer()
             _warm = self.name
+
+
+class Shield(WorkerPlugin):
+    """Keeps Ctrl-C in a terminal, which reaches every process started there, from workers that the run itself ends."""
+
+    name = "grammarbt-shield"
+
+    def setup(self, worker: Worker) -> None:
+        """Ignore it in the worker's process."""
+        del worker
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def answers(name: str, calls: Sequence[Call]) -> list[Packed]:

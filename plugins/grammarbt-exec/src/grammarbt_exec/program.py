@@ -23,6 +23,9 @@ MAX_LINE = 16 * 2**20
 """Bytes of the longest line that is read."""
 
 _PIECE = 2**16
+_MOST_PIECES = 64
+"""Of standard error that are read at the end, or before a request; there can be more only while somebody writes."""
+
 _TAIL = 2_000
 _LAST_LINES = 5
 _PATIENCE = 0.5
@@ -120,7 +123,8 @@ class Program:
             searched = len(self._received)
             if searched > MAX_LINE:
                 raise self.fault(f"wrote a line longer than {MAX_LINE // 2**20} MiB")
-            ready = self._selector.select(max(deadline - time.monotonic(), 0))
+            left = deadline - time.monotonic()  # who only writes errors, or dribbles, is too slow as well
+            ready = self._selector.select(left) if left > 0 else []
             if not ready:
                 partly = f", only began: {shown(bytes(self._received))}" if self._received else ""
                 raise self.fault(f"did not answer within {limit:g} s{partly}")
@@ -164,7 +168,7 @@ class Program:
             return self.fault("closed its standard output")
         code = int(self._lifeline.recv(16) or -signal.SIGKILL)
         if code < 0:
-            return self.fault(f"was ended by {signal.Signals(-code).name}")
+            return self.fault(f"was ended by signal {-code} ({signal.strsignal(-code)})")
         return self.fault("could not be started" if code == guard.NOT_STARTED else f"ended with exit code {code}")
 
     def _forget_errors(self) -> None:
@@ -173,12 +177,11 @@ class Program:
         self._tail = b""
 
     def _read_last_errors(self, patience: float = _PATIENCE) -> None:
-        deadline = time.monotonic() + patience
         with DefaultSelector() as selector:
             if self._errors in self._selector.get_map():
                 selector.register(self._errors, EVENT_READ)
-            while selector.get_map() and selector.select(max(deadline - time.monotonic(), 0)):
-                if not self._collect():
+            for _ in range(_MOST_PIECES):
+                if not selector.get_map() or not selector.select(patience) or not self._collect():
                     break
 
     def _kill(self) -> None:

@@ -34,18 +34,13 @@ class Environment:
         env: without the wrappers that only check or count.
         name: its id without name space and version: `CartPole`.
         max_steps: after which an episode ends in any case.
+        actions: what can be done in a step.
     """
 
     env: gymnasium.Env[Any, Any]
     name: str
     max_steps: int
-
-    @property
-    def actions(self) -> spaces.Discrete:
-        """The actions; `make_environment` has seen to it that they are discrete."""
-        found = self.env.action_space
-        assert isinstance(found, spaces.Discrete)  # noqa: S101 - for the type checker
-        return found
+    actions: spaces.Discrete[Any]
 
 
 def make_environment(parameters: GymnasiumParameters) -> Environment:
@@ -55,18 +50,19 @@ def make_environment(parameters: GymnasiumParameters) -> Environment:
         DomainError: there is none of that name, it does not start, or its actions are not discrete.
     """
     env = _made(parameters.env, read_options(parameters.options))
-    if not isinstance(env.action_space, spaces.Discrete):
-        message = f"the actions of {parameters.env} are not discrete: {env.action_space}"
+    actions = env.action_space
+    if not isinstance(actions, spaces.Discrete):
+        message = f"the actions of {parameters.env} are not discrete: {actions}"
         raise DomainError(message, "choose an environment with Discrete actions, for example CartPole-v1")
     spec = env.spec
     name, limit = (spec.name, spec.max_episode_steps) if spec else (parameters.env, None)
-    return Environment(_unwrapped(env), name, parameters.max_steps or limit or ENDLESS)
+    return Environment(_unwrapped(env), name, parameters.max_steps or limit or ENDLESS, actions)
 
 
 def _made(name: str, options: dict[str, Any]) -> gymnasium.Env[Any, Any]:
     try:
         return _quietly_made(name, options)
-    except error.UnregisteredEnv as problem:
+    except (error.UnregisteredEnv, error.DeprecatedEnv) as problem:
         known = did_you_mean(name, gymnasium.registry)
         raise DomainError(f"there is no environment {name!r}: {_line(problem)}", known) from None
     except (error.DependencyNotInstalled, ImportError) as problem:
@@ -77,24 +73,25 @@ def _made(name: str, options: dict[str, Any]) -> gymnasium.Env[Any, Any]:
 
 
 def _quietly_made(name: str, options: dict[str, Any]) -> gymnasium.Env[Any, Any]:
-    """What a simulator prints when it starts is no result, and Box2D's bindings warn of what nobody can mend."""
+    """What a simulator prints when it starts is no result, and what its packages deprecate is not the user's."""
     with redirect_stdout(sys.stderr), warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "builtin type", DeprecationWarning)
-        _import_package_of(name)
+        warnings.simplefilter("ignore", DeprecationWarning)
+        package = _package_of(name)
+        if package:
+            import_module(package)
         return gymnasium.make(name, disable_env_checker=True, **options)
 
 
-def _import_package_of(name: str) -> None:
-    package = PACKAGES.get(name.replace("/", "-").partition("-")[0])
-    if package:
-        import_module(package)
+def _package_of(name: str) -> str | None:
+    """The package that registers the environment, unless that is gymnasium."""
+    module, colon, _ = name.partition(":")
+    return module if colon else PACKAGES.get(name.replace("/", "-").partition("-")[0])
 
 
 def _install(name: str) -> str:
-    package = PACKAGES.get(name.replace("/", "-").partition("-")[0])
-    if package == "minigrid":
-        return "pip install 'grammarbt-gymnasium[minigrid]'"
-    return f"pip install {package}" if package else "pip install 'grammarbt-gymnasium[box2d]' if it is Box2D"
+    package = _package_of(name) or "box2d"  # what else gymnasium's own environments need
+    extra = package in {"box2d", "minigrid"}
+    return f"pip install 'grammarbt-gymnasium[{package}]'" if extra else f"pip install {package}"
 
 
 def _unwrapped(env: gymnasium.Env[Any, Any]) -> gymnasium.Env[Any, Any]:

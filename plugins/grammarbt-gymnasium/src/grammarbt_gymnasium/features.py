@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
-from attrs import frozen
+from attrs import evolve, frozen
 from gymnasium import spaces
 
 from grammarbt.errors import DomainError
@@ -72,7 +72,7 @@ def space_view(space: spaces.Space[Any], names: Sequence[str] = (), *, ordered: 
     Raises:
         DomainError: no part can be read, or there are more features than a tree could ask for.
     """
-    view = _view(space, "state" if isinstance(space, spaces.Discrete) else "obs", ordered)
+    view = _view(space, "", ordered)
     if view is None:
         raise DomainError(f"observations cannot be read: {space}", "wrap the environment so that it observes numbers")
     if len(view.features) > MOST_FEATURES:
@@ -96,9 +96,9 @@ def _view(space: spaces.Space[Any], name: str, ordered: bool) -> View | None:
 
 def _parts(space: spaces.Space[Any], name: str, ordered: bool) -> View | None:
     if isinstance(space, spaces.Tuple):
-        return _joined([(at, _view(part, f"{name}{at}", ordered)) for at, part in enumerate(space.spaces)])
+        return _joined([(at, _view(part, f"{name or 'obs'}{at}", ordered)) for at, part in enumerate(space.spaces)])
     if isinstance(space, spaces.Dict):
-        return _joined([(key, _view(part, str(key), ordered)) for key, part in space.spaces.items()])
+        return _joined([(key, _view(part, f"{name} {key}".strip(), ordered)) for key, part in space.spaces.items()])
     return None
 
 
@@ -120,8 +120,8 @@ def _box(space: spaces.Box, name: str) -> View:
 def _discrete(space: spaces.Discrete[Any], name: str, ordered: bool) -> View:
     start, n = int(space.start), int(space.n)
     if n == 2:  # noqa: PLR2004 - yes and no
-        return View((Flag(name),), lambda seen: (seen - start,))
-    return View((Choice(name, _labels(start, n), ordered),), lambda seen: (seen - start,))
+        return View((Flag(name or "state"),), lambda seen: (seen - start,))
+    return View((Choice(name or "state", _labels(start, n), ordered),), lambda seen: (seen - start,))
 
 
 def _joined(parts: Sequence[tuple[Any, View | None]]) -> View | None:
@@ -139,14 +139,8 @@ def _joined(parts: Sequence[tuple[Any, View | None]]) -> View | None:
 def _renamed(view: View, names: Sequence[str]) -> View:
     if len(names) != len(view.features):
         return view
-    kept = zip(view.features, names, strict=True)
-    return View(tuple(_with_name(feature, name) for feature, name in kept), view.read)
-
-
-def _with_name(feature: Feature, name: str) -> Feature:
-    if isinstance(feature, Number):
-        return Number(name, feature.low, feature.high)
-    return Flag(name) if isinstance(feature, Flag) else Choice(name, feature.labels, feature.ordered)
+    renamed = (evolve(feature, name=name) for feature, name in zip(view.features, names, strict=True))
+    return View(tuple(renamed), view.read)
 
 
 def _labels(start: int, n: int) -> tuple[str, ...]:
@@ -157,4 +151,5 @@ def _labels(start: int, n: int) -> tuple[str, ...]:
 
 
 def _numbered(name: str, n: int) -> list[str]:
-    return [name] if n == 1 else [f"{name}{number}" for number in range(n)]
+    own = name or "obs"
+    return [own] if n == 1 else [f"{own}{number}" for number in range(n)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from attrs import field, frozen
-from attrs.validators import ge, in_, instance_of, le, optional
+from attrs.validators import ge, in_, instance_of, le, min_len, optional
 
 Spacing = Literal["quantiles", "grid"]
 
@@ -20,7 +20,7 @@ class GymnasiumParameters:
 
     env: str = field(
         default="CartPole-v1",
-        validator=instance_of(str),
+        validator=[instance_of(str), min_len(1)],
         metadata={"help": "the environment's id, as gymnasium.make takes it; module:id imports the module first"},
     )
     options: str = field(

@@ -8,14 +8,17 @@ import numpy as np
 
 from grammarbt.bt import walk
 from grammarbt.domain import Outcome
+from grammarbt.domain.plain import record
 from grammarbt_pickplace import kernel
 from grammarbt_pickplace.parameters import PickPlaceParameters
+from grammarbt_pickplace.picture import BOX
+from grammarbt_pickplace.plain import PlainPickPlace
 from grammarbt_pickplace.state import MEMORY, STATE
 from grammarbt_pickplace.tasks import TASKS
 
 if TYPE_CHECKING:
     from grammarbt.bt import Policy
-    from grammarbt.domain import Scenarios
+    from grammarbt.domain import Episode, Scenarios
 
 
 class PickPlace:
@@ -26,14 +29,15 @@ class PickPlace:
 
     grammar = "pickplace"
     depends_on: Literal["behaviour", "tree"] = "tree"
+    return_range = (-np.inf, 0.0)
 
     def __init__(self, parameters: PickPlaceParameters | None = None) -> None:
         self.parameters = parameters or PickPlaceParameters()
-        task = TASKS[self.parameters.task]
-        self.vocabulary = task.vocabulary
-        self.references = task.references
-        self._starts = np.array(task.starts)
-        self._codes = np.array([kernel.LEAVES.index(leaf.name) for leaf in task.vocabulary.leaves], dtype=np.int32)
+        self._task = TASKS[self.parameters.task]
+        self.vocabulary = self._task.vocabulary
+        self.references = self._task.references
+        self._starts = np.array(self._task.starts)
+        self._codes = np.array([kernel.LEAVES.index(leaf.name) for leaf in self.vocabulary.leaves], dtype=np.int32)
 
     def simulate(self, policy: Policy, scenarios: Scenarios) -> Outcome:
         """Run one episode per scenario; in S2 that is a run per table, and the return their mean."""
@@ -42,6 +46,11 @@ class PickPlace:
         memory = np.zeros(policy.occurrences, dtype=MEMORY)
         numbers = np.array(scenarios, dtype=np.int64)  # read-only or strided arrays would be compiled for anew
         return Outcome(*kernel.simulate(self._program(policy), state, memory, self._starts, numbers))
+
+    def episode(self, policy: Policy, scenario: int) -> Episode:
+        """The episode that `simulate` scores; in S2 its runs follow each other, and the reward is their mean so far."""
+        world = PlainPickPlace(self._task, policy.tree, scenario, stochastic=self.parameters.stochastic)
+        return record(world, policy.tree, BOX, "points")
 
     def _program(self, policy: Policy) -> kernel.Program:
         entries = np.empty(len(policy.leaf), dtype=kernel.ENTRY)

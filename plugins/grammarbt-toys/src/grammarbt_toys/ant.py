@@ -11,14 +11,16 @@ import numpy as np
 
 from grammarbt.bt import Status
 from grammarbt.domain import ActionType, ConditionType, Group, Outcome, Reference, Vocabulary
+from grammarbt.domain.plain import record
 from grammarbt_toys import ant_kernel
 from grammarbt_toys.parameters import AntParameters
+from grammarbt_toys.plain_ant import PlainAnt
 from grammarbt_toys.program import make_program
-from grammarbt_toys.trail import santa_fe_trail
+from grammarbt_toys.trail import santa_fe_rows, santa_fe_trail
 
 if TYPE_CHECKING:
     from grammarbt.bt import Policy
-    from grammarbt.domain import Scenarios
+    from grammarbt.domain import Episode, Scenarios
 
 _DONE = frozenset({Status.SUCCESS})
 VOCABULARY = Vocabulary(
@@ -47,6 +49,7 @@ class Ant:
     grammar = "ant"
     references = (Reference("Koza", f"?( →( (food ahead) [move forward] ) {_LOOK_AROUND} )"),)
     depends_on: Literal["behaviour", "tree"] = "behaviour"
+    return_range = (0.0, 89.0)
 
     def __init__(self, parameters: AntParameters | None = None) -> None:
         self.parameters = parameters or AntParameters()
@@ -56,3 +59,8 @@ class Ant:
         program = make_program(policy)
         eaten = ant_kernel.simulate(program, santa_fe_trail().copy(), self.parameters.steps)
         return Outcome(np.full(len(scenarios), float(eaten)), program.ticks * len(scenarios))
+
+    def episode(self, policy: Policy, _scenario: int) -> Episode:
+        """The episode that `simulate` scores."""
+        world = PlainAnt(santa_fe_rows(), self.parameters.steps)
+        return record(world, policy.tree, world.box, "pellets")

@@ -12,13 +12,15 @@ import numpy as np
 
 from grammarbt.bt import Status
 from grammarbt.domain import ActionType, ConditionType, Group, Outcome, Reference, Vocabulary
+from grammarbt.domain.plain import record
 from grammarbt_toys import foraging_kernel
 from grammarbt_toys.parameters import ForagingParameters
+from grammarbt_toys.plain_foraging import PlainForaging
 from grammarbt_toys.program import make_program
 
 if TYPE_CHECKING:
     from grammarbt.bt import Policy
-    from grammarbt.domain import Scenarios
+    from grammarbt.domain import Episode, Scenarios
 
 _AT_ONCE = frozenset({Status.SUCCESS, Status.FAILURE})
 _GO_ON = frozenset({Status.RUNNING, Status.FAILURE})
@@ -67,12 +69,18 @@ class Foraging:
 
     def __init__(self, parameters: ForagingParameters | None = None) -> None:
         self.parameters = parameters or ForagingParameters()
+        self.return_range = 0.0, float(self.parameters.sites * self.parameters.food)
 
     def simulate(self, policy: Policy, scenarios: Scenarios) -> Outcome:
         """Run one episode per scenario; the return is the pieces of food brought to the hub."""
         program, numbers = make_program(policy), np.array(scenarios, dtype=np.int64)
         world, p = _make_world(self.parameters), self.parameters
         return Outcome(foraging_kernel.simulate(program, world, p.food, p.steps, numbers), program.ticks)
+
+    def episode(self, policy: Policy, scenario: int) -> Episode:
+        """The episode that `simulate` scores; each robot's tick is a frame of its own."""
+        world = PlainForaging(self.parameters, scenario)
+        return record(world, policy.tree, world.box, "pieces of food")
 
 
 def _make_world(parameters: ForagingParameters) -> foraging_kernel.World:

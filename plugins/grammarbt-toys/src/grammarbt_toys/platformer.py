@@ -12,13 +12,15 @@ import numpy as np
 
 from grammarbt.bt import Status
 from grammarbt.domain import ActionType, ConditionType, Group, Outcome, Reference, Vocabulary
+from grammarbt.domain.plain import record
 from grammarbt_toys import platformer_kernel as kernel
 from grammarbt_toys.parameters import PlatformerParameters
+from grammarbt_toys.plain_platformer import PlainGame, draw_level
 from grammarbt_toys.program import make_program
 
 if TYPE_CHECKING:
     from grammarbt.bt import Policy
-    from grammarbt.domain import Scenarios
+    from grammarbt.domain import Episode, Scenarios
 
 _FIELD = (("right", tuple(map(str, kernel.RIGHTS))), ("up", tuple(map(str, kernel.UPS))))
 _PRESSED = frozenset({Status.SUCCESS})
@@ -60,12 +62,18 @@ class Platformer:
 
     def __init__(self, parameters: PlatformerParameters | None = None) -> None:
         self.parameters = parameters or PlatformerParameters()
+        self.return_range = 0.0, self.parameters.columns - 1.0
 
     def simulate(self, policy: Policy, scenarios: Scenarios) -> Outcome:
         """Run one episode per scenario; the return is the columns that the player came forward."""
         program, numbers = make_program(policy), np.array(scenarios, dtype=np.int64)
         world = make_world(self.parameters.columns)
         return Outcome(kernel.simulate(program, world, self.parameters.steps, numbers), program.ticks)
+
+    def episode(self, policy: Policy, scenario: int) -> Episode:
+        """The episode that `simulate` scores."""
+        game = PlainGame(draw_level(scenario, self.parameters.columns), self.parameters.steps)
+        return record(game, policy.tree, game.box, "columns")
 
 
 def make_world(columns: int) -> kernel.World:

@@ -16,13 +16,15 @@ import numpy as np
 
 from grammarbt.bt import Action, Condition, Fallback, Sequence, Status, format_tree
 from grammarbt.domain import ActionType, ConditionType, Group, Outcome, Reference, Vocabulary
+from grammarbt.domain.plain import record
 from grammarbt_toys.parameters import TaskSelectionParameters
+from grammarbt_toys.plain_taskselection import PlainTaskSelection
 from grammarbt_toys.program import make_program
 from grammarbt_toys.taskselection_kernel import first_actions
 
 if TYPE_CHECKING:
     from grammarbt.bt import BehaviorTree, Policy
-    from grammarbt.domain import Scenarios
+    from grammarbt.domain import Episode, Scenarios
 
 
 class TaskSelection:
@@ -30,6 +32,7 @@ class TaskSelection:
 
     grammar = "taskselection"
     depends_on: Literal["behaviour", "tree"] = "behaviour"
+    return_range = (0.0, 1.0)
 
     def __init__(self, parameters: TaskSelectionParameters | None = None) -> None:
         self.parameters = parameters or TaskSelectionParameters()
@@ -44,6 +47,11 @@ class TaskSelection:
         chosen = first_actions(program, last + 1, factorial(last) + 1)
         returns = np.full(len(scenarios), np.mean(chosen == self._right))
         return Outcome(returns, program.ticks * len(scenarios))
+
+    def episode(self, policy: Policy, _scenario: int) -> Episode:
+        """The episode that `simulate` scores, an assignment a tick."""
+        world = PlainTaskSelection(self.parameters.conditions)
+        return record(world, policy.tree, world.box, "share of right actions")
 
 
 def make_vocabulary(last: int) -> Vocabulary:

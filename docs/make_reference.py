@@ -1,0 +1,143 @@
+"""Write the pages of docs/reference that follow from the code: python docs/make_reference.py.
+
+A test compares what this gives with what stands there.
+"""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+from collections.abc import Iterator
+from pathlib import Path
+
+import click
+
+from grammarbt.cli.app import VERBS, application
+from grammarbt.plugins import PluginHost, PluginOptions, Registry, hookspecs, specs
+from grammarbt.plugins.parameters import Parameter, describe
+
+PACKAGES = ("bt", "domain", "grammar", "plugins", "search", "testing")
+REFERENCE = Path(__file__).parent / "reference"
+EVENTS = "grammarbt.plugins.events"
+FIRST_OBSERVER = "grammarbt_run_started"
+
+
+def pages() -> dict[str, str]:
+    """Every generated page, by file name."""
+    return {
+        "cli.md": _page("The command line", _cli()),
+        "hooks.md": _page("Hooks", _hooks()),
+        "components.md": _page("Components and their parameters", _components()),
+        "api.md": _page("Public names", _api()),
+    }
+
+
+def _page(title: str, lines: Iterator[str]) -> str:
+    text = "\n".join([f"# {title}", "", *lines])
+    return text.rstrip() + "\n"
+
+
+def _cli() -> Iterator[str]:
+    yield "Exit codes: 0 on success, 2 after a user's mistake, 130 after Ctrl-C, 1 where a verb answers *no*."
+    yield ""
+    group = click.Context(application, info_name="grammarbt")
+    for verb in VERBS:
+        command = application.get_command(group, verb)
+        if command is not None:
+            yield from _command(command, click.Context(command, parent=group, info_name=verb))
+
+
+def _command(command: click.Command, context: click.Context) -> Iterator[str]:
+    if isinstance(command, click.Group):
+        for name in command.list_commands(context):
+            below = command.get_command(context, name)
+            if below is not None:
+                yield from _command(below, click.Context(below, parent=context, info_name=name))
+        return
+    yield f"## `{context.command_path}`"
+    yield ""
+    yield "```text"
+    context.max_content_width = 100
+    yield from (line.rstrip() for line in command.get_help(context).splitlines())
+    yield "```"
+    yield ""
+
+
+def _hooks() -> Iterator[str]:
+    yield "A plugin's `hooks` module implements what it needs of these; the entry-point group is `grammarbt`."
+    yield f"The present number of the interface, `GRAMMARBT_API`, is {specs.GRAMMARBT_API}."
+    yield ""
+    named = [(name, hook) for name, hook in vars(hookspecs).items() if name.startswith("grammarbt_")]
+    for name, hook in named:
+        yield f"## `{name}`"
+        yield ""
+        yield f"```python\ndef {name}{inspect.signature(hook)}: ...\n```"
+        yield ""
+        yield inspect.getdoc(hook) or ""
+        yield ""
+    yield "## Descriptions and events"
+    yield ""
+    events = importlib.import_module(EVENTS)
+    for module in (specs, events):
+        for name, thing in vars(module).items():
+            if inspect.isclass(thing) and thing.__module__ == module.__name__:
+                yield f"### `{name}`"
+                yield ""
+                yield f"```text\n{inspect.getdoc(thing)}\n```"
+                yield ""
+
+
+def _components() -> Iterator[str]:
+    yield "What the core and the plugins of this repository bring. `grammarbt plugins NAME` prints the same."
+    yield ""
+    registry = Registry(PluginHost(PluginOptions(), lambda _: None))
+    for kind in ("searchers", "domains", "executors"):
+        yield f"## {kind.capitalize()}"
+        yield ""
+        found = [spec for plugin in registry.host.plugins for spec in plugin.provides[kind]]
+        for spec in sorted(found, key=lambda spec: spec.name):
+            yield f"### `{spec.name}`"
+            yield ""
+            yield spec.help
+            yield ""
+            yield from _parameters(kind.removesuffix("s"), describe(registry.parameters_of(spec)))  # type: ignore[arg-type]  # kinds with parameters
+
+
+def _parameters(part: str, parameters: tuple[Parameter, ...]) -> Iterator[str]:
+    if not parameters:
+        return
+    yield "| parameter | takes | default | |"
+    yield "| --- | --- | --- | --- |"
+    for each in parameters:
+        default = "required" if each.required else f"`{each.default}`"
+        takes = str(each.type).replace("|", "\\|")
+        yield f"| `{part}.{each.name}` | {takes} | {default} | {each.help} |"
+    yield ""
+
+
+def _api() -> Iterator[str]:
+    yield "These names are stable: a release that removes or changes one says so a minor version before, with a"
+    yield "`DeprecationWarning` that names the replacement. Everything else is the project's own."
+    yield ""
+    for package in PACKAGES:
+        module = importlib.import_module(f"grammarbt.{package}")
+        yield f"## `grammarbt.{package}`"
+        yield ""
+        yield (inspect.getdoc(module) or "").splitlines()[0]
+        yield ""
+        for name in sorted(module.__all__):
+            yield f"- `{name}`{_summary(getattr(module, name))}"
+        yield ""
+
+
+def _summary(thing: object) -> str:
+    """The first line of a class's or function's docstring."""
+    if not (inspect.isclass(thing) or inspect.isfunction(thing)):
+        return ""
+    lines = (thing.__doc__ or "").strip().splitlines()
+    return f": {lines[0]}" if lines else ""
+
+
+if __name__ == "__main__":
+    for name, text in pages().items():
+        (REFERENCE / name).write_text(text, encoding="utf-8")

@@ -1,0 +1,5 @@
+from grammarbt.testing import SearcherConformance, SearcherSubject
+
+
+class TestGe(SearcherConformance):
+    subject = SearcherSubject("ge")

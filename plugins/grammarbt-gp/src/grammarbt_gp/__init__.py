@@ -1,0 +1,1 @@
+"""Grammar-guided genetic programming."""

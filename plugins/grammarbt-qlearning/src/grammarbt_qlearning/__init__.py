@@ -1,0 +1,1 @@
+"""Q-learning over the productions of a grammar."""

@@ -1,0 +1,44 @@
+"""The parameters of the searcher, with their help texts."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from attrs import field, frozen, validators
+
+View: TypeAlias = Literal["place", "progress", "state"]
+
+_share = [validators.ge(0.0), validators.le(1.0)]
+
+
+@frozen(kw_only=True)
+class QLearningParameters:
+    """How values are learned, and how much is left to chance."""
+
+    view: View = field(
+        default="state",
+        validator=validators.in_(("place", "progress", "state")),
+        metadata={
+            "help": "what a state is: place: parent, place among its children, and how many productions are legal; "
+            "progress: depth, and what the open scopes have used; state: all that makes productions legal"
+        },
+    )
+    trace: float = field(
+        default=1.0,
+        validator=_share,
+        metadata={"help": "lambda: 1 learns from returns alone (Monte Carlo), 0 from the next value (bootstrapped)"},
+    )
+    rate: float = field(
+        default=0.1,
+        validator=[validators.gt(0.0), validators.le(1.0)],
+        metadata={"help": "smallest step towards a new target; the n-th visit takes 1/n while that is larger"},
+    )
+    first_chance: float = field(
+        default=1.0, validator=_share, metadata={"help": "epsilon in the beginning: probability of a random production"}
+    )
+    last_chance: float = field(default=0.1, validator=_share, metadata={"help": "epsilon in the end"})
+    cooled: float = field(
+        default=0.6,
+        validator=[validators.gt(0.0), validators.le(1.0)],
+        metadata={"help": "share of the budget after which epsilon has come down"},
+    )

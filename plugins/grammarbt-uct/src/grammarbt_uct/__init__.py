@@ -1,0 +1,1 @@
+"""UCT over leftmost derivations."""

@@ -1,0 +1,152 @@
+"""Simulated annealing over a language of trees, for domains in which one episode tells a tree's worth.
+
+Kirkpatrick, Gelatt & Vecchi, "Optimization by Simulated Annealing" (Science, 1983), in rounds. Nothing is simulated twice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import exp
+
+import numpy as np
+from attrs import frozen
+
+from grammarbt.bt import BehaviorTree
+from grammarbt.grammar import Derivation
+from grammarbt.search.base import Proposal, SearchContext
+from grammarbt.search.batches import Batches, Width
+from grammarbt.search.edits import Edits, Site
+from grammarbt.search.fame import HallOfFame
+from grammarbt.search.moves import pick
+
+FIRST_TREES = 50
+ELITES = 5
+FROM_ELITE = 1 / 3
+"""Chance that a round begins from an elite rather than from the best of some random trees."""
+LOSSES = 200
+"""The first losses, which temperatures are scaled to."""
+SMALL_LOSS, LARGE_LOSS = 0.05, 0.9
+"""Quantiles of the losses that count as small and large."""
+HOT, COLD = 40.0, 0.6
+"""The first and the last temperature of a round, in small losses."""
+HOTTEST = 1 / 8
+"""The first temperature at most, in large losses."""
+COOLING = 1 / 4
+"""The last temperature at most, in first ones."""
+IDLE = 6
+"""Draws per episode of a round after which it ends, though most were known."""
+
+
+@frozen(eq=False)
+class Place:
+    """Where a round stands."""
+
+    derivation: Derivation
+    site: Site
+    value: float
+
+
+class AnnealedSearch:
+    """Rounds of annealing, from random trees and from the best of earlier rounds.
+
+    Args:
+        context: what to search.
+        edits: of the grammar.
+        round_episodes: episodes of a round.
+        start: the derivation that the first round begins from, if any.
+    """
+
+    def __init__(
+        self, context: SearchContext, edits: Edits, round_episodes: int, start: Derivation | None = None
+    ) -> None:
+        self.rng = context.rng
+        self.edits = edits
+        self.round_episodes = min(round_episodes, max(context.budget, 1))
+        self.start = start
+        self.values: dict[Derivation, float] = {}
+        self.fame = HallOfFame()
+        self.elites: list[Place] = []
+        self.losses: list[float] = []
+        self.hot = self.cold = 0.0
+        self.rounds = self.accepted = 0
+
+    def round(self, width: Width) -> Batches[Place]:
+        """One cooling; gives the best place that it came to."""
+        first = yield from self._first(width)
+        best = yield from self._anneal(first, width)
+        self.rounds += 1
+        self.elites = sorted([*self.elites, best], key=lambda place: -place.value)[:ELITES]
+        return best
+
+    def _first(self, width: Width) -> Batches[Place]:
+        if self.start is not None:
+            derivation, self.start = self.start, None
+            values = yield from self._values([derivation])
+            return self._place(derivation, values[0])
+        if self.elites and self.rng.random() < FROM_ELITE:
+            return pick(self.elites, self.rng)
+        drawn: list[Derivation] = []
+        returns: list[float] = []
+        while len(drawn) < FIRST_TREES:
+            some = [self.edits.sample(self.rng) for _ in range(min(width(), FIRST_TREES - len(drawn)))]
+            returns += yield from self._values(some)
+            drawn += some
+        at = int(np.argmax(returns))
+        return self._place(drawn[at], returns[at])
+
+    def _place(self, derivation: Derivation, value: float) -> Place:
+        return Place(derivation, self.edits.site(derivation), value)
+
+    def _anneal(self, first: Place, width: Width) -> Batches[Place]:
+        """Cool down once; gives the best place seen."""
+        here = best = first
+        spent = drawn = 0
+        others = [elite.site for elite in self.elites]
+        while spent < self.round_episodes and drawn < IDLE * self.round_episodes:
+            found = [self.edits.neighbour(here.site, others, self.rng) for _ in range(width())]
+            derivations = [derivation for derivation in found if derivation is not None]
+            drawn += len(found)
+            before = len(self.values)
+            values = yield from self._values(derivations)
+            spent += len(self.values) - before
+            temperature = self._temperature(min(1.0, spent / self.round_episodes))
+            for derivation, value in zip(derivations, values, strict=True):
+                if self._accepts(value - here.value, temperature):
+                    here = self._place(derivation, value)
+                    self.accepted += 1
+                if here.value > best.value:
+                    best = here
+        return best
+
+    def _accepts(self, gain: float, temperature: float) -> bool:
+        if gain >= 0.0:
+            return True
+        if len(self.losses) < LOSSES:
+            self.losses.append(-gain)
+            small, large = np.quantile(self.losses, (SMALL_LOSS, LARGE_LOSS))
+            self.hot = min(HOT * float(small), HOTTEST * float(large))
+            self.cold = min(COLD * float(small), COOLING * self.hot)
+        return temperature > 0.0 and float(self.rng.random()) < exp(gain / temperature)
+
+    def _temperature(self, done: float) -> float:
+        """Falls geometrically; 0 as long as no loss is known that it could be scaled to."""
+        return self.hot * (self.cold / self.hot) ** done if self.hot else 0.0
+
+    def _values(self, derivations: Sequence[Derivation]) -> Batches[list[float]]:
+        """The return of each; what is known is not simulated again. A tree that fails is worth nothing."""
+        fresh = [derivation for derivation in dict.fromkeys(derivations) if derivation not in self.values]
+        if fresh:
+            trees = [self.edits.states.tree(derivation) for derivation in fresh]
+            told = yield [Proposal(tree, derivation) for tree, derivation in zip(trees, fresh, strict=True)]
+            for derivation, evaluation in zip(fresh, told, strict=True):
+                self.values[derivation] = evaluation.mean
+                self.fame.add(evaluation.proposal.tree, evaluation.returns)
+        return [self.values[derivation] for derivation in derivations]
+
+    def candidates(self, n: int) -> Sequence[BehaviorTree]:
+        """The trees with the highest returns."""
+        return self.fame.best(n)
+
+    def metrics(self) -> Mapping[str, float]:
+        """Trees simulated, rounds, and moves made."""
+        return {"trees": len(self.values), "restarts": self.rounds, "accepted": self.accepted}

@@ -1,0 +1,60 @@
+"""Searching any grammar: anneal where one episode tells a tree's worth, race where worlds differ."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from attrs import frozen
+
+from grammarbt.bt import BehaviorTree
+from grammarbt.grammar import Derivation
+from grammarbt.search.annealing import AnnealedSearch
+from grammarbt.search.base import Proposal
+from grammarbt.search.batches import Batches, Strategy, Width
+
+PROBED = 12
+"""Random trees that are simulated in a few scenarios each."""
+SCENARIOS = 3
+QUIET = 0.1
+"""How much the scenarios may matter, as a share of how much the trees matter."""
+
+
+@frozen(eq=False)
+class GeneralSearch:
+    """Probes how much scenarios matter, and hands over to one of two strategies.
+
+    Args:
+        annealed: for domains in which they hardly do.
+        raced: for the others, and from the moment that a good tree turns out to depend on the scenario.
+    """
+
+    annealed: AnnealedSearch
+    raced: Strategy
+
+    def batches(self, width: Width) -> Batches[None]:
+        """The search."""
+        returns = yield from self._probe([self.annealed.edits.sample(self.annealed.rng) for _ in range(PROBED)])
+        spread = float(np.std([sum(own) for own in returns])) / SCENARIOS if returns else 0.0
+        best = max(returns, key=sum, default=(0.0,))
+        while spread > 0.0 and max(best) - min(best) <= QUIET * spread:
+            place = yield from self.annealed.round(width)
+            returns = yield from self._probe([place.derivation])
+            best = max(returns, key=sum, default=best)
+        yield from self.raced.batches(width)
+
+    def _probe(self, derivations: Sequence[Derivation]) -> Batches[list[tuple[float, ...]]]:
+        """Each tree's returns in a few scenarios; of a tree that fails, nothing."""
+        trees = [self.annealed.edits.states.tree(derivation) for derivation in derivations]
+        told = yield [
+            Proposal(tree, derivation, 0, SCENARIOS) for tree, derivation in zip(trees, derivations, strict=True)
+        ]
+        return [evaluation.returns for evaluation in told if evaluation.returns]
+
+    def candidates(self, n: int) -> Sequence[BehaviorTree]:
+        """Those of the strategy at work."""
+        return (self.raced if self.raced.candidates(1) else self.annealed).candidates(n)
+
+    def metrics(self) -> Mapping[str, float]:
+        """Those of the strategy at work."""
+        return (self.raced if self.raced.candidates(1) else self.annealed).metrics()

@@ -1,0 +1,184 @@
+"""Edits stay in the language whatever the grammar, and annealing over them finds what it should."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grammarbt.bt import format_tree, leaves, parse
+from grammarbt.domain import ActionType, ConditionType, Group, Vocabulary
+from grammarbt.grammar import Source, bind, load_grammar, shipped_grammars
+from grammarbt.search import AnnealedSearch, Edits, Evaluation, GeneralSearch, Proposal, SearchContext
+
+VOCABULARY = Vocabulary(
+    (
+        Group("g1", (ActionType("a"), ActionType("b")), (ConditionType("c"), ConditionType("d"))),
+        Group("g2", (ActionType("e"),), (ConditionType("f"),)),
+    )
+)
+RIGHT = '%declare ACTION CONDITION\n%limit nodes 12\nstart: "?" "(" CONDITION* more ")"\nmore: ACTION more | start more | ACTION\n'
+LEFT = '%declare ACTION CONDITION\nstart: "?" "(" pairs ")"\npairs: pairs CONDITION ACTION | ACTION\n'
+NESTED = (
+    "%declare ACTION CONDITION\n%limit nodes 15\nstart: fallback | sequence\n"
+    'fallback: "?" "(" tries ")"\ntries: CONDITION tries | ACTION tries | sequence tries | ACTION | sequence\n'
+    'sequence: "→" "(" steps ")"\nsteps: CONDITION steps | ACTION steps | fallback steps | ACTION | fallback\n'
+)
+OWN = {"right": RIGHT, "left": LEFT, "nested": NESTED}
+GOAL = parse("?( →( (c) ?( (d) [a] ) [b] ) [e] )")
+
+
+def bound(name):
+    source = Source(f"{name}.grammar", OWN[name]) if name in OWN else shipped_grammars()[name]
+    return bind(load_grammar(source), VOCABULARY)
+
+
+EDITS = {name: Edits(bound(name)) for name in (*OWN, *shipped_grammars())}
+KINDS = ("insert", "copy", "delete", "replace", "splice", "move", "regenerate", "exchange", "enclose", "convert")
+
+
+@pytest.mark.parametrize("name", EDITS)
+@given(seed=st.integers(0, 2**32))
+def test_neighbours_stay_in_the_language(name, seed):
+    edits, rng = EDITS[name], np.random.default_rng(seed)
+    derivation = edits.sample(rng)
+    other = edits.site(edits.sample(rng))
+    for _ in range(5):
+        found = edits.neighbour(edits.site(derivation), [other], rng)
+        if found is not None:
+            assert found != derivation
+            tree = edits.grammar.tree(edits.grammar.derive(found))
+            assert edits.states.tree(found) == tree
+            derivation = found
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_of_edit_changes_nested_trees(kind):
+    edits, rng = EDITS["nested"], np.random.default_rng(1)
+    changed = 0
+    for _ in range(200):
+        site, other = edits.site(edits.sample(rng)), edits.site(edits.sample(rng))
+        template = getattr(edits, kind)(site, other, rng)
+        found = None if template is None else edits.short.complete(template, rng)
+        changed += found is not None and found != site.tree.steps
+    assert changed > 10
+
+
+@pytest.mark.parametrize("name", EDITS)
+@given(seed=st.integers(0, 2**32))
+def test_rows_are_written_as_they_were_read(name, seed):
+    edits = EDITS[name]
+    site = edits.site(edits.sample(np.random.default_rng(seed)))
+    for row in site.rows:
+        assert site.rewritten(row, edits.rows.written(row.symbol, row.items)) == site.tree.steps
+
+
+def test_a_row_that_begins_with_itself_reads_left_to_right():
+    edits, rng = EDITS["left"], np.random.default_rng(0)
+    site = max((edits.site(edits.sample(rng)) for _ in range(50)), key=lambda site: len(site.rows[0].items))
+    (row,) = site.rows
+    assert len(row.items) > 2
+    backwards = edits.rows.written(row.symbol, [row.items[0], *row.items[:0:-1]])
+    tree = edits.states.tree(edits.short.complete(site.rewritten(row, backwards), rng))
+    first, *pairs = leaves(edits.states.tree(site.tree.steps))
+    expected = [first, *(leaf for at in range(len(pairs) - 2, -1, -2) for leaf in pairs[at : at + 2])]
+    assert list(leaves(tree)) == expected
+
+
+def test_short_trees_come_first():
+    edits, rng = EDITS["nested"], np.random.default_rng(0)
+    sizes = [len(leaves(edits.states.tree(edits.sample(rng)))) for _ in range(300)]
+    by_weight = [len(leaves(edits.grammar.tree(edits.grammar.derive(edits.grammar.sample(rng))))) for _ in range(300)]
+    assert np.mean(sizes) < np.mean(by_weight)
+
+
+def likeness(tree):
+    """How much of the goal's text is there, less a little for every leaf."""
+    wanted, found = format_tree(GOAL).split(), format_tree(tree).split()
+    same = 0
+    while same < min(len(wanted), len(found)) and wanted[same] == found[same]:
+        same += 1
+    return same - 0.1 * len(leaves(tree))
+
+
+def run(make, value, episodes=3_000, batch=1):
+    context = SearchContext(bound("nested"), VOCABULARY, np.random.default_rng(2), episodes)
+    strategy = make(context, Edits(context.grammar))
+    batches = strategy.batches(lambda: batch)
+    asked, spent = next(batches), []
+    while len(spent) < episodes:
+        spent += asked
+        told = [
+            Evaluation(each, tuple(value(each.tree, scenario) for scenario in range(each.start, each.stop)))
+            for each in asked
+        ]
+        asked = batches.send(told)
+    return strategy, spent
+
+
+class Annealed:
+    """Rounds without end."""
+
+    def __init__(self, context, edits):
+        self.search = AnnealedSearch(context, edits, 1_000)
+
+    def batches(self, width):
+        while True:
+            yield from self.search.round(width)
+
+    def candidates(self, n):
+        return self.search.candidates(n)
+
+
+@pytest.mark.parametrize("batch", [1, 4])
+def test_annealing_finds_the_goal(batch):
+    strategy, spent = run(Annealed, lambda tree, _: likeness(tree), batch=batch)
+    assert strategy.candidates(1) == (GOAL,)
+    assert len({proposal.derivation for proposal in spent}) == len(spent)
+
+
+class Raced:
+    """Stands for a strategy that races: proposes one tree for ever."""
+
+    def __init__(self, edits, rng):
+        self.edits, self.rng, self.begun = edits, rng, False
+
+    def batches(self, width):
+        self.begun = True
+        while True:
+            derivation = self.edits.sample(self.rng)
+            yield [self._proposal(derivation)]
+
+    def _proposal(self, derivation):
+        return Proposal(self.edits.states.tree(derivation), derivation)
+
+    def candidates(self, n):
+        return ()
+
+    def metrics(self):
+        return {}
+
+
+def general(context, edits):
+    return GeneralSearch(AnnealedSearch(context, edits, 200), Raced(edits, context.rng))
+
+
+def test_where_scenarios_do_not_matter_it_anneals():
+    strategy, _ = run(general, lambda tree, _: likeness(tree), episodes=900)
+    assert not strategy.raced.begun
+    assert strategy.annealed.rounds >= 3
+
+
+def test_where_scenarios_matter_it_races():
+    strategy, _ = run(general, lambda tree, scenario: likeness(tree) + 9.0 * (scenario % 3), episodes=100)
+    assert strategy.raced.begun
+    assert strategy.annealed.rounds == 0
+
+
+def test_a_good_tree_that_depends_on_the_scenario_ends_the_annealing():
+    def value(tree, scenario):
+        known = likeness(tree)
+        return known + (9.0 * (scenario % 3) if known > 4 else 0.0)
+
+    strategy, _ = run(general, value, episodes=1_500)
+    assert strategy.raced.begun
+    assert strategy.annealed.rounds >= 1

@@ -47,7 +47,7 @@ def _check_arguments(_: object, __: Attribute[Arguments], value: Arguments) -> N
         raise NotationError(f"a leaf's arguments name a key twice in {shortened(value)}", "give each key once")
 
 
-@frozen
+@frozen(cache_hash=True)
 class Action:
     """A leaf that acts; a tick answers success, failure or running."""
 
@@ -55,7 +55,7 @@ class Action:
     arguments: Arguments = field(default=(), validator=_check_arguments)
 
 
-@frozen
+@frozen(cache_hash=True)
 class Condition:
     """A leaf that asks; a tick answers success or failure."""
 
@@ -68,14 +68,14 @@ def _some(_: object, attribute: Attribute[tuple[Node, ...]], value: tuple[Node, 
         raise NotationError(f"a control node needs {attribute.name}", "give it at least one child")
 
 
-@frozen
+@frozen(cache_hash=True)
 class Fallback:
     """Tries its children left to right until one does not fail."""
 
     children: tuple[Node, ...] = field(validator=_some)
 
 
-@frozen
+@frozen(cache_hash=True)
 class Sequence:
     """Runs its children left to right until one does not succeed."""
 
@@ -90,7 +90,7 @@ def _reachable(node: Parallel, _: Attribute[int], value: int) -> None:
         )
 
 
-@frozen
+@frozen(cache_hash=True)
 class Parallel:
     """Ticks its children left to right until `successes` of them succeed, or so many can no longer be reached.
 
@@ -101,7 +101,7 @@ class Parallel:
     successes: int = field(validator=_reachable)
 
 
-@frozen
+@frozen(cache_hash=True)
 class Not:
     """Swaps its child's success and failure."""
 

@@ -9,6 +9,7 @@ tokens is free. After `!`, `(c)` and `((c))` read alike.
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from reprlib import repr as shortened
 from typing import TypeAlias
 
@@ -31,6 +32,7 @@ from grammarbt.errors import NotationError
 
 _OPERATOR = re.compile(r"\?|→|->|!|(?:‖|\|\|)(\d+)")
 _LOOKS_LIKE_OPERATOR = re.compile(r"\?|→|->|!|(?:‖|\|\|)\d")
+_SIGNS: dict[type, str] = {Fallback: "?", Sequence: "→", Not: "!"}
 _EXCERPT = 24
 
 
@@ -58,6 +60,7 @@ def format_tree(tree: BehaviorTree) -> str:
     return f"{operator(tree)}( {inside} )"
 
 
+@lru_cache(maxsize=4_096)
 def format_leaf(leaf: Leaf) -> str:
     """Write a leaf: `[name]`, `(name)`, or with arguments `[name(key=value)]`."""
     text = leaf_text(leaf)
@@ -91,7 +94,7 @@ def operator(node: Node) -> str:
     """The sign of a control node or decorator."""
     if isinstance(node, Parallel):
         return f"‖{node.successes}"
-    return {Fallback: "?", Sequence: "→", Not: "!"}[type(node)]
+    return _SIGNS[type(node)]
 
 
 @frozen

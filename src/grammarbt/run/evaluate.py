@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache, partial
 from hashlib import blake2b
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
 
 _DIGEST = 16
 """Bytes of a key; two different trees among 10^12 share one with a probability below 10^-14."""
+
+
+_RECENT = 1_024
+"""Trees whose keys are kept: a race asks for the same trees again and again."""
 
 
 @frozen
@@ -107,11 +112,11 @@ class Evaluator:
         self.cache = ReturnCache() if cache is None else cache
         self._simulator = simulator or SerialSimulator(domain)
         self._first = int(scenario_numbers(seed, 0, 1)[0])
-        self._key = tree_key(domain)
+        self._identity = lru_cache(_RECENT)(partial(_identity, tree_key(domain)))
 
     def key(self, tree: BehaviorTree) -> bytes:
         """Equal for trees that always have the same return."""
-        return self._asked(Proposal(tree)).key
+        return self._identity(tree)[1]
 
     def evaluate(self, proposals: Sequence[Proposal], limit: int) -> list[Trial]:
         """Evaluate proposals in order until the next would simulate more than `limit` episodes in all."""
@@ -126,8 +131,7 @@ class Evaluator:
         return [trials[place] for place in sorted(trials)]
 
     def _asked(self, proposal: Proposal) -> Asked:
-        text = format_tree(proposal.tree)
-        return Asked(proposal, text, blake2b(self._key(proposal.tree, text), digest_size=_DIGEST).digest())
+        return Asked(proposal, *self._identity(proposal.tree))
 
     def _wave(self, left: Mapping[int, Asked], used: dict[bytes, Known], limit: int) -> dict[int, Task]:
         """Proposals whose keys all differ: what one learns, a later one of its key must know.
@@ -171,6 +175,12 @@ class Evaluator:
 
     def _numbers(self, missing: Sequence[int]) -> Scenarios:
         return np.array(missing, dtype=np.int64) + self._first
+
+
+def _identity(key: Callable[[BehaviorTree, str], bytes], tree: BehaviorTree) -> tuple[str, bytes]:
+    """A tree in the one-line notation, and the key under which its returns are known."""
+    text = format_tree(tree)
+    return text, blake2b(key(tree, text), digest_size=_DIGEST).digest()
 
 
 def tree_key(domain: Domain) -> Callable[[BehaviorTree, str], bytes]:

@@ -26,6 +26,20 @@ def test_any_budget_is_respected_and_gives_a_candidate(lamps, budget):
     assert evaluator.episodes <= budget
 
 
+def test_one_bad_world_does_not_lose_the_best_candidate(lamps):
+    class OneBadWorld(lamps):
+        def reset(self, rng):
+            super().reset(rng)
+            if self.pay > 11.5:
+                raise RuntimeError("a bad world")
+
+    evaluator, trials = Evaluator(OneBadWorld(), 0), []
+    best = SuccessiveHalving(evaluator, trials.append).best([parse(word) for word in WORDS], 400)
+    assert any(trial.evaluation.status == "failed" for trial in trials)
+    assert format_tree(best) == WORDS[2]
+    assert evaluator.episodes <= 400
+
+
 def test_candidates_of_one_behaviour_race_once(lamps):
     evaluator = Evaluator(lamps(), 0)
     SuccessiveHalving(evaluator, lambda _: None).best([parse("[light left]"), parse("→( [light left] )")], 50)

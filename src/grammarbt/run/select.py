@@ -59,12 +59,28 @@ class SuccessiveHalving:
     def _better_half(self, trees: list[BehaviorTree], stop: int, left: int) -> list[BehaviorTree]:
         # Earlier rounds' scenarios come from the cache, so a mean is over all that the selection knows.
         proposals = [Proposal(tree, None, FIRST_SELECTION_SCENARIO, stop) for tree in trees]
+        end = self.evaluator.episodes + left
         # What failed there is simulated again, so the budget may end before the last of them.
+        trials = self._evaluated(proposals, left)
+        means = [
+            trial.evaluation.mean if trial.evaluation.returns else self._mean_one_by_one(proposal, end)
+            for proposal, trial in zip(proposals, trials, strict=False)
+        ]
+        ranked = sorted(range(len(means)), key=lambda at: -means[at])
+        return [trees[at] for at in ranked[: ceil(len(trees) / 2)]] or trees[:1]
+
+    def _mean_one_by_one(self, proposal: Proposal, end: int) -> float:
+        """The mean of a tree that failed on some of its scenarios: over the others, as far as the budget goes."""
+        single = [Proposal(proposal.tree, None, at, at + 1) for at in range(proposal.start, proposal.stop)]
+        trials = self._evaluated(single, end - self.evaluator.episodes)
+        returns = [value for trial in trials for value in trial.evaluation.returns]
+        return sum(returns) / len(returns) if returns else float("-inf")
+
+    def _evaluated(self, proposals: Sequence[Proposal], left: int) -> list[Trial]:
         trials = self.evaluator.evaluate(proposals, left)
         for trial in trials:
             self.record(trial)
-        ranked = sorted(trials, key=lambda trial: -trial.evaluation.mean)
-        return [trial.evaluation.proposal.tree for trial in ranked[: ceil(len(trees) / 2)]] or trees[:1]
+        return trials
 
 
 def _rounds(trees: int) -> int:

@@ -1,6 +1,6 @@
 """How often is the learned marine tree complete, and how good? One row per budget.
 
-    python benchmarks/marine_completeness.py --budgets 5000 --seeds 100 120 [--set searcher.preset=paper]
+    python benchmarks/marine_completeness.py --budgets 5000 --seeds 100 120 [--searcher compose] [--set domain.preset=sparse]
 
 Seeds 0–9 are for tuning; claims rest on others.
 """
@@ -39,9 +39,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--budgets", type=int, nargs="+", default=[5000])
     parser.add_argument("--seeds", type=int, nargs=2, default=[100, 120], metavar=("FIRST", "END"))
-    parser.add_argument("--set", action="append", default=[], metavar="searcher.KEY=VALUE")
+    parser.add_argument("--searcher", default="dagmcts")
+    parser.add_argument("--set", action="append", default=[], metavar="PART.KEY=VALUE")
     arguments = parser.parse_args()
-    options = [word for setting in arguments.set for word in ("--set", setting)]
+    options = ["--searcher", arguments.searcher, *(word for setting in arguments.set for word in ("--set", setting))]
     print("budget  complete  mean ratio  95 % interval  worst")
     for budget in arguments.budgets:
         found = [run(seed, budget, options) for seed in range(*arguments.seeds)]

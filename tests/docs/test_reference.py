@@ -33,9 +33,3 @@ def test_every_public_name_is_there_and_explained(package):
         thing = getattr(module, name)
         if isinstance(thing, type) or callable(thing):
             assert getattr(thing, "__doc__", None), f"{package}.{name} has no docstring"
-
-
-def test_citation_has_the_version_of_the_package():
-    import grammarbt  # noqa: PLC0415 - only this test needs it
-
-    assert f"version: {grammarbt.__version__}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")

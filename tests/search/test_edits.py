@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grammarbt.bt import format_tree, leaves, parse
@@ -37,6 +37,7 @@ KINDS = ("insert", "copy", "delete", "replace", "splice", "move", "regenerate", 
 
 
 @pytest.mark.parametrize("name", EDITS)
+@settings(max_examples=25)
 @given(seed=st.integers(0, 2**32))
 def test_neighbours_stay_in_the_language(name, seed):
     edits, rng = EDITS[name], np.random.default_rng(seed)
@@ -64,6 +65,7 @@ def test_every_kind_of_edit_changes_nested_trees(kind):
 
 
 @pytest.mark.parametrize("name", EDITS)
+@settings(max_examples=25)
 @given(seed=st.integers(0, 2**32))
 def test_rows_are_written_as_they_were_read(name, seed):
     edits = EDITS[name]

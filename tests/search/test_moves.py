@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grammarbt.bt import children, leaves
-from grammarbt.search import Moves
+from grammarbt.search import IdleElements, Moves
 
 KINDS = ("regenerate", "insert", "delete", "reorder")
 
@@ -127,10 +127,10 @@ def test_the_same_stream_makes_the_same_moves(abc):
 def test_elements_that_were_never_ticked_are_taken_away(abc):
     moves, tree = abc
     rng = np.random.default_rng(0)
-    assert names(spelled(moves, moves.without_idle(tree, (4, 0, 1), rng).steps)) == "ae"
-    assert moves.without_idle(tree, (4, 2, 1), rng) == tree
+    assert names(spelled(moves, IdleElements(moves).removed(tree, (4, 0, 1), rng).steps)) == "ae"
+    assert IdleElements(moves).removed(tree, (4, 2, 1), rng) == tree
 
 
 def test_what_the_language_needs_stays_though_it_was_never_ticked(abc):
     moves, tree = abc
-    assert len(names(spelled(moves, moves.without_idle(tree, (4, 0, 0), np.random.default_rng(0)).steps))) == 2
+    assert len(names(spelled(moves, IdleElements(moves).removed(tree, (4, 0, 0), np.random.default_rng(0)).steps))) == 2

@@ -43,13 +43,3 @@ def test_illegal_steps_are_refused_and_leave_the_walk_as_it_was(states, grammars
     assert walk.derivation == []
     walk.grow(np.random.default_rng(0))
     assert not walk.take(0)
-
-
-def test_walks_go_on_from_a_copy_on_their_own(states):
-    rng = np.random.default_rng(0)
-    walk = states["scopes"].walk()
-    for _ in range(3):
-        walk.take(walk.state.draw(rng))
-    before = list(walk.derivation)
-    walk.copy().grow(rng)
-    assert walk.derivation == before

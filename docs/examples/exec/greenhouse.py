@@ -17,15 +17,21 @@ ANNOUNCEMENT = {
     "groups": [
         {
             "name": "air",
-            "actions": [{"name": "heat", "results": ["running"]}, {"name": "open window", "results": ["running"]}],
-            "conditions": [{"name": "cold", "pure": True}, {"name": "hot", "pure": True}],
+            "actions": [
+                {"name": "heat", "help": "Heat for a quarter of an hour.", "results": ["running"]},
+                {"name": "open window", "help": "Let some air from outside in.", "results": ["running"]},
+            ],
+            "conditions": [
+                {"name": "cold", "help": "It is colder than 16 degrees.", "pure": True},
+                {"name": "hot", "help": "It is hotter than 26 degrees.", "pure": True},
+            ],
         },
         {
             "name": "soil",
-            "actions": [{"name": "water", "help": "needs the pump, which fails now and then"}],
-            "conditions": [{"name": "dry", "pure": True}],
+            "actions": [{"name": "water", "help": "Needs the pump, which fails now and then."}],
+            "conditions": [{"name": "dry", "help": "The soil is less than 40 % moist.", "pure": True}],
         },
-        {"name": "rest", "actions": [{"name": "wait", "results": ["running"]}]},
+        {"name": "rest", "actions": [{"name": "wait", "help": "Do nothing.", "results": ["running"]}]},
     ],
     "references": [
         {"name": "manual", "tree": "?( →( (dry) [water] ) →( (cold) [heat] ) →( (hot) [open window] ) [wait] )"}

@@ -7,7 +7,6 @@ from grammarbt.bt.canonical import behave_alike
 from grammarbt.errors import SearcherError
 from grammarbt.grammar import Source, bind, load_grammar
 from grammarbt.search import Evaluation
-from grammarbt_dagmcts.paper import PaperSearch
 from grammarbt_dagmcts.parameters import DagMctsParameters
 from grammarbt_dagmcts.search import DagMcts
 
@@ -91,11 +90,27 @@ def test_asking_twice_is_an_error(context):
         searcher.ask(1)
 
 
-def test_languages_without_lists_are_searched_from_the_start_symbol(context, vocabulary):
+def test_trees_that_are_no_lists_are_found_too(context, vocabulary):
     text = '%declare ACTION CONDITION\nstart: ACTION | "→" "(" CONDITION start ")"\n%limit nodes 7\n'
     plain = bind(load_grammar(Source("plain.grammar", text)), vocabulary)
-    searcher = DagMcts(context(grammar=plain), DagMctsParameters())
-    assert isinstance(searcher.strategy, PaperSearch)
+    searcher = DagMcts(context(grammar=plain), DagMctsParameters(round_episodes=300))
+    wanted = parse("→( (full) →( (tired) [cook] ) )")
+    for _ in range(1_000):
+        (asked,) = searcher.ask(1)
+        value = sum(one == other for one, other in zip(leaves(wanted), leaves(asked.tree), strict=False))
+        searcher.tell([Evaluation(asked, (value - 0.1 * len(leaves(asked.tree)),) * (asked.stop - asked.start))])
+    assert searcher.candidates(1)[0] == wanted
+
+
+def test_paper_begins_from_the_start_tree(context, goal, grammar):
+    searcher = DagMcts(context(start=goal), DagMctsParameters(preset="paper"))
+    (first,) = searcher.ask(1)
+    assert first.tree == goal
+    searcher.tell([Evaluation(first, (5.0,))])
+    (word,) = (node for node in searcher.strategy.dag.nodes.values() if grammar.is_word(node.form))
+    assert grammar.tree(word.form) == goal
+    assert word.closed
+    assert word.visits == searcher.strategy.dag.root.visits == 1
 
 
 def test_a_finished_language_leaves_nothing_to_ask(context, vocabulary):

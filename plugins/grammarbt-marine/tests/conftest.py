@@ -1,15 +1,10 @@
 """The default domain, shared by all tests, and what it takes to simulate a tree in notation."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from grammarbt.bt import compile_policy, parse
 from grammarbt_marine.domain import Marine
-
-sys.path.append(str(Path(__file__).parent))  # test folders are no packages; marine_reference is found this way
 
 
 @pytest.fixture(scope="session")

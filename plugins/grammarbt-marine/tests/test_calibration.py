@@ -3,11 +3,11 @@
 import pytest
 
 from grammarbt.bt import Fallback, format_tree, parse
-from grammarbt_marine.domain import Marine
+from grammarbt_marine.references import REFERENCES
 
 EPISODES = 5_000
-MANUAL = parse(Marine.references[0].tree)
-BEST_ORDER = parse(Marine.references[1].tree)
+MANUAL = parse(REFERENCES[0].tree)
+BEST_ORDER = parse(REFERENCES[1].tree)
 MANUAL_MEAN = 145.65
 
 

@@ -9,15 +9,15 @@ import pytest
 
 from grammarbt.bt import compile_policy, parse
 from grammarbt.domain import scenario_numbers
-from grammarbt_marine.domain import Marine
+from grammarbt_marine.references import REFERENCES
 from grammarbt_marine.vocabulary import VOCABULARY
 
-MANUAL = compile_policy(parse(Marine.references[0].tree), VOCABULARY.index)
+MANUAL = compile_policy(parse(REFERENCES[0].tree), VOCABULARY.index)
 
 IN_ANOTHER_PROCESS = """
 import numpy as np
 from grammarbt.bt import compile_policy, parse
-from grammarbt_marine.domain import Marine
+from grammarbt_marine.references import REFERENCES
 marine = Marine()
 policy = compile_policy(parse(marine.references[0].tree), marine.vocabulary.index)
 print(marine.simulate(policy, np.arange(50)).returns.tolist())

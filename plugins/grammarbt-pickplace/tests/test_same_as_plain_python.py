@@ -1,4 +1,7 @@
-"""The episode to watch, from the simulator in plain Python, is the one that the compiled simulator scores."""
+"""The compiled simulator and the one in plain Python agree on every number."""
+
+from collections import Counter
+from itertools import chain
 
 import numpy as np
 import pytest
@@ -16,8 +19,10 @@ from grammarbt.bt import (
     parse,
     walk,
 )
+from grammarbt.domain.plain import play
 from grammarbt_pickplace.domain import PickPlace
 from grammarbt_pickplace.parameters import PickPlaceParameters
+from grammarbt_pickplace.plain import PlainPickPlace
 from grammarbt_pickplace.tasks import TASKS
 
 EPISODES = 20
@@ -67,12 +72,11 @@ def trees(task):
     ]
 
 
-def ticks_of(episode, tree):
-    counts = [0] * len(leaves(tree))
-    for frame in episode.frames:
-        for occurrence, _ in frame.answers:
-            counts[occurrence] += 1
-    return counts
+def played(task, tree, scenario, *, stochastic):
+    """The return of an episode in plain Python, and each tick's answers."""
+    world = PlainPickPlace(task, tree, scenario, stochastic=stochastic)
+    ticks = list(play(world, tree))
+    return world.reward, ticks
 
 
 @pytest.mark.parametrize("stochastic", [False, True], ids=["certain", "stochastic"])
@@ -81,11 +85,11 @@ def test_returns_and_ticks_are_equal_on_every_episode(name, stochastic):
     domain = PickPlace(PickPlaceParameters(name, stochastic))
     scenarios = np.arange(EPISODES) + 2**32 * 7
     for tree in trees(TASKS[name]):
-        policy = compile_policy(tree, domain.vocabulary.index)
-        episodes = [domain.episode(policy, int(scenario)) for scenario in scenarios]
-        outcome = domain.simulate(policy, scenarios)
-        assert outcome.returns.tolist() == [episode.frames[-1].reward for episode in episodes]
-        assert outcome.ticks.tolist() == np.sum([ticks_of(episode, tree) for episode in episodes], axis=0).tolist()
+        outcome = domain.simulate(compile_policy(tree, domain.vocabulary.index), scenarios)
+        episodes = [played(TASKS[name], tree, int(scenario), stochastic=stochastic) for scenario in scenarios]
+        counts = Counter(occurrence for _, ticks in episodes for tick in ticks for occurrence, _ in tick)
+        assert outcome.returns.tolist() == [reward for reward, _ in episodes]
+        assert outcome.ticks.tolist() == [counts[occurrence] for occurrence in range(len(leaves(tree)))]
 
 
 def test_the_trees_compared_have_every_kind_of_node_and_every_leaf():
@@ -96,13 +100,12 @@ def test_the_trees_compared_have_every_kind_of_node_and_every_leaf():
 
 
 def test_every_leaf_answers_all_that_the_vocabulary_declares_and_nothing_else():
-    domain = PickPlace(PickPlaceParameters("S3", stochastic=True))
-    answers = {leaf: set() for leaf in domain.vocabulary.leaves}
-    for tree in trees(TASKS["S3"]):
-        row, policy = leaves(tree), compile_policy(tree, domain.vocabulary.index)
+    task = TASKS["S3"]
+    answers = {leaf: set() for leaf in task.vocabulary.leaves}
+    for tree in trees(task):
+        row = leaves(tree)
         for scenario in range(EPISODES):
-            for frame in domain.episode(policy, scenario).frames:
-                for occurrence, status in frame.answers:
-                    answers[row[occurrence]].add(status)
-    for leaf, kind in domain.vocabulary.types.items():
+            for occurrence, status in chain.from_iterable(played(task, tree, scenario, stochastic=True)[1]):
+                answers[row[occurrence]].add(status)
+    for leaf, kind in task.vocabulary.types.items():
         assert answers[leaf] == (kind.results if isinstance(leaf, Action) else {Status.SUCCESS, Status.FAILURE}), leaf

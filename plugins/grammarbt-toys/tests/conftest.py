@@ -1,6 +1,6 @@
-"""Where the tests find the plain worlds to compare with."""
+"""Where the tests find what they share."""
 
 import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).parent))  # test folders are no packages; toys_reference is found this way
+sys.path.append(str(Path(__file__).parent))  # test folders are no packages; toys_trees is found this way

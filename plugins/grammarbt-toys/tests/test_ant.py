@@ -2,19 +2,20 @@
 
 import numpy as np
 import pytest
-from toys_reference import EVERY_KIND, PlainAnt, kinds_of, wild_tree
+from toys_trees import EVERY_KIND, kinds_of, played, wild_tree
 
 from grammarbt.bt import Fallback, compile_policy, parse, walk
 from grammarbt_toys.ant import VOCABULARY, Ant
 from grammarbt_toys.ant_kernel import LEAVES, simulate
 from grammarbt_toys.parameters import AntParameters
+from grammarbt_toys.plain_ant import PlainAnt
 from grammarbt_toys.program import make_program
-from grammarbt_toys.trail import read_trail, santa_fe_trail
+from grammarbt_toys.trail import read_trail, santa_fe_rows, santa_fe_trail
 
 KOZA = parse(Ant.references[0].tree)
 WILD = [wild_tree(np.random.default_rng(number), VOCABULARY.leaves, 20) for number in range(30)]
 TREES = [KOZA, *WILD, *(Fallback((KOZA.children[0], tree)) for tree in WILD)]
-SANTA_FE = ["".join(".#"[pellet] for pellet in row) for row in santa_fe_trail().tolist()]
+SANTA_FE = santa_fe_rows()
 
 SMALL_TRAIL = [
     "S##.",
@@ -32,6 +33,24 @@ PLAYTHROUGHS = [
     ("‖2( [move forward] [turn right] )", "Mrmrmrmrmrmr"),
 ]
 """A letter a step: moved, turned left or right, nothing; a capital where the ant ate."""
+
+
+class WritingAnt(PlainAnt):
+    """Writes down what it does."""
+
+    written = ""
+
+    def answer(self, leaf, occurrence):
+        before = self.reward, self.time
+        status = super().answer(leaf, occurrence)
+        if self.time > before[1]:
+            letter = leaf.name.removeprefix("turn ")[0]
+            self.written += letter.upper() if self.reward > before[0] else letter
+        return status
+
+    def step(self, status):
+        super().step(status)
+        self.written = self.written.ljust(self.time, ".")
 
 
 def eaten_in(tree, rows, steps):
@@ -63,7 +82,9 @@ def test_an_episode_leaves_the_trail_as_it_was():
 
 @pytest.mark.parametrize(("tree", "written"), PLAYTHROUGHS)
 def test_a_playthrough_is_as_written_down(tree, written):
-    assert PlainAnt(SMALL_TRAIL, len(written)).play(parse(tree))[0] == written
+    ant = WritingAnt(SMALL_TRAIL, len(written))
+    played(ant, parse(tree))
+    assert ant.written == written
 
 
 @pytest.mark.parametrize(("tree", "written"), PLAYTHROUGHS)
@@ -75,9 +96,7 @@ def test_the_compiled_ant_has_eaten_as_much_after_every_step(tree, written):
 @pytest.mark.parametrize("steps", [1, 7, 100, 600])
 def test_pellets_and_ticks_are_those_of_plain_python(steps):
     for tree in TREES:
-        ant = PlainAnt(SANTA_FE, steps)
-        _, ticks = ant.play(tree)
-        assert eaten_in(tree, SANTA_FE, steps) == (ant.eaten(), ticks)
+        assert eaten_in(tree, SANTA_FE, steps) == played(PlainAnt(SANTA_FE, steps), tree)
 
 
 def test_the_trees_compared_have_every_kind_of_node_and_some_of_them_eat():

@@ -1,14 +1,17 @@
 """The swarm forages as robots in plain Python do, and as drawn here."""
 
+from collections import Counter
+
 import numpy as np
 import pytest
-from foraging_reference import PlainForaging
-from toys_reference import EVERY_KIND, kinds_of, wild_tree
+from toys_trees import EVERY_KIND, kinds_of, played, wild_tree
 
-from grammarbt.bt import Fallback, compile_policy, format_leaf, leaves, parse, walk
+from grammarbt.bt import Fallback, compile_policy, format_leaf, parse, walk
+from grammarbt.domain.plain import play
 from grammarbt_toys.foraging import VOCABULARY, Foraging
 from grammarbt_toys.foraging_kernel import LEAVES
 from grammarbt_toys.parameters import ForagingParameters
+from grammarbt_toys.plain_foraging import PlainForaging
 
 MANUAL, FORGETFUL = (parse(reference.tree) for reference in Foraging.references)
 WILD = [wild_tree(np.random.default_rng(number), VOCABULARY.leaves, 20) for number in range(40)]
@@ -27,19 +30,26 @@ def test_the_kernel_knows_the_leaves_of_the_vocabulary_by_their_numbers():
 def test_returns_and_ticks_are_those_of_plain_python():
     for tree in TREES:
         for scenario in (0, 3, 2**40 + 1):
-            world = PlainForaging(SMALL, scenario)
-            ticks = world.play(tree)
             outcome = outcome_of(tree, SMALL, [scenario])
-            assert (outcome.returns.tolist(), outcome.ticks.tolist()) == ([world.delivered], ticks)
+            assert (*outcome.returns, outcome.ticks.tolist()) == played(PlainForaging(SMALL, scenario), tree)
+
+
+def drawn_row(world):
+    """A row: hub H, sites S, food *, a robot r, or R with food."""
+    signs = {
+        world.hub: "H",
+        **dict.fromkeys(world.sites, "S"),
+        **dict.fromkeys(filter(world.has_food, world.food), "*"),
+    }
+    signs.update({robot.place: "R" if robot.carrying else "r" for robot in world.robots})
+    return "".join(signs.get((4, column), ".") for column in range(world.parameters.size))
 
 
 def test_a_playthrough_as_drawn():
-    world = PlainForaging(ForagingParameters(size=8, robots=1, sites=1, food=1), scenario=0)
-    world.robots[0].place, world.sites, world.food = (4, 2), [(4, 0)], [(4, 0)]
-    rows = [world.drawing()[4]]
-    for _ in range(5):
-        world.pass_step(MANUAL, [0] * len(leaves(MANUAL)))
-        rows.append(world.drawing()[4])
+    world = PlainForaging(ForagingParameters(size=8, robots=1, sites=1, food=1, steps=5), scenario=0)
+    world.robots[0].place, world.sites, world.food = (4, 2), [(4, 0)], Counter([(4, 0)])
+    world.robots[0].begin_turn()
+    rows = [drawn_row(world), *(drawn_row(world) for _ in play(world, MANUAL))]
     assert rows == ["*.r.H...", "*r..H...", "SR..H...", "S.R.H...", "S..RH...", "S..rH..."]
     assert world.delivered == 1
 

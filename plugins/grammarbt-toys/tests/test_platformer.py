@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
-from platformer_reference import PlainGame
-from toys_reference import EVERY_KIND, kinds_of, wild_tree
+from toys_trees import EVERY_KIND, kinds_of, played, wild_tree
 
-from grammarbt.bt import Fallback, compile_policy, format_leaf, leaves, parse, walk
+from grammarbt.bt import Fallback, compile_policy, format_leaf, parse, walk
+from grammarbt.domain.plain import play
 from grammarbt_toys.parameters import PlatformerParameters
-from grammarbt_toys.platformer import VOCABULARY, Platformer, make_world
-from grammarbt_toys.platformer_kernel import GAP, LEAVES, make_level
+from grammarbt_toys.plain_platformer import PlainGame, draw_level
+from grammarbt_toys.platformer import VOCABULARY, Platformer
+from grammarbt_toys.platformer_kernel import LEAVES
 
 MANUAL, UNARMED = (parse(reference.tree) for reference in Platformer.references)
 WILD = [wild_tree(np.random.default_rng(number), VOCABULARY.leaves, 24) for number in range(60)]
@@ -19,22 +20,19 @@ def outcome_of(tree, scenarios, parameters=None):
     return Platformer(parameters).simulate(compile_policy(tree, VOCABULARY.index), np.array(scenarios))
 
 
-def level_of(scenario, columns):
-    """The level as a row of signs."""
-    world = make_world(columns)
-    make_level(world, scenario)
-    ground = ["_12"[height] if height != GAP else " " for height in world.ground]
-    return "".join("e" if enemy >= 0 else sign for sign, enemy in zip(ground, world.enemies, strict=True))
+def drawn(game):
+    """The rows from the top: the player P, or X when it is out, enemies e, ground and walls #."""
+    rows = [["#" if ground is not None and y < ground else "." for ground in game.ground] for y in range(3, -2, -1)]
+    for column, _ in game.enemies:
+        rows[3][column] = "e"
+    rows[3 - game.y][game.x] = "P" if game.alive else "X"
+    return ["".join(row) for row in rows]
 
 
 def drawings(level, tree, steps):
     """The row of the player, the enemies and the walls, and the two above it, after every step."""
-    game = PlainGame(level)
-    rows = []
-    for _ in range(steps):
-        game.pass_step(parse(tree), [0] * len(leaves(parse(tree))))
-        rows.append(" ".join(game.drawing()[1:4]))
-    return rows
+    game = PlainGame(level, steps)
+    return [" ".join(drawn(game)[1:4]) for _ in play(game, parse(tree))]
 
 
 def test_the_kernel_knows_the_leaves_of_the_vocabulary_by_their_numbers():
@@ -44,10 +42,9 @@ def test_the_kernel_knows_the_leaves_of_the_vocabulary_by_their_numbers():
 def test_returns_and_ticks_are_those_of_plain_python():
     for number, tree in enumerate(TREES):
         for scenario in (number, number + 2**40):
-            game = PlainGame(level_of(scenario, 60))
-            ticks = game.play(tree, steps=80)
             outcome = outcome_of(tree, [scenario], PlatformerParameters(columns=60, steps=80))
-            assert (outcome.returns.tolist(), outcome.ticks.tolist()) == ([game.farthest], ticks)
+            expected = played(PlainGame(draw_level(scenario, 60), steps=80), tree)
+            assert (*outcome.returns, outcome.ticks.tolist()) == expected
 
 
 def test_the_trees_compared_have_every_kind_of_node_and_nearly_every_leaf():
@@ -67,13 +64,13 @@ def test_a_jump_over_a_gap_as_drawn():
 
 
 def test_a_walk_into_a_gap_ends_there():
-    game = PlainGame("__ __")
-    game.play(parse("[right]"), steps=10)
-    assert (game.farthest, game.alive, game.drawing()[4]) == (2, False, "##X##")
+    game = PlainGame("__ __", steps=10)
+    assert len(list(play(game, parse("[right]")))) == 2
+    assert (game.farthest, game.alive, drawn(game)[4]) == (2, False, "##X##")
 
 
 @pytest.mark.parametrize(
-    ("level", "tree", "drawn"),
+    ("level", "tree", "rows"),
     [
         ("_2__", "→( [jump] [right] )", [".... P#.. .#..", ".P.. .#.. .#.."]),
         ("___e", "→( [right] )", [".... .... .P.e", ".... .... ..X."]),
@@ -81,8 +78,8 @@ def test_a_walk_into_a_gap_ends_there():
         ("_e__", "→( [right] )", [".... .... .X.."]),
     ],
 )
-def test_a_short_playthrough_as_drawn(level, tree, drawn):
-    assert drawings(level, tree, len(drawn)) == drawn
+def test_a_short_playthrough_as_drawn(level, tree, rows):
+    assert drawings(level, tree, len(rows)) == rows
 
 
 def test_the_batch_does_not_matter():
@@ -101,6 +98,6 @@ def test_most_levels_can_be_won_by_hand_and_few_without_shooting():
 
 
 def test_levels_have_gaps_walls_and_enemies_between_free_ends():
-    levels = [level_of(scenario, 100) for scenario in range(20)]
+    levels = [draw_level(scenario, 100) for scenario in range(20)]
     assert set("".join(levels)) == set("_ 12e")
     assert all(set(level[:8] + level[-5:]) == {"_"} for level in levels)

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from toys_reference import EVERY_KIND, kinds_of, plain_right_action, plain_taskselection, wild_tree
+from toys_trees import EVERY_KIND, kinds_of, played, wild_tree
 
 from grammarbt.bt import compile_policy, format_tree, parse, walk
 from grammarbt_toys.parameters import TaskSelectionParameters
+from grammarbt_toys.plain_taskselection import PlainTaskSelection, right_action
 from grammarbt_toys.taskselection import TaskSelection, right_tree
 
 KNOWN = "?( →( (c0) [a0] ) →( (c2) (c3) [a6] ) →( (c2) [a2] ) →( (c3) [a3] ) [a1] )"
@@ -56,26 +57,17 @@ def test_there_is_an_action_for_every_product_and_one_for_c0():
     domain = TaskSelection(TaskSelectionParameters(4))
     names = [leaf.name for leaf in domain.vocabulary.leaves]
     assert names == [f"a{number}" for number in range(25)] + [f"c{number}" for number in range(5)]
-    assert plain_right_action((False, True, True, True, True)) == "a24"
+    assert right_action((False, True, True, True, True)) == "a24"
 
 
 @pytest.mark.parametrize("last", [1, 3, 4])
 def test_returns_and_ticks_are_those_of_plain_python(last):
     for tree in [*trees_of(last), right_tree(last)]:
         outcome = outcome_of(tree, last, scenarios=2)
-        share, ticks, _ = plain_taskselection(tree, last)
+        share, ticks = played(PlainTaskSelection(last), tree)
         assert outcome.returns.tolist() == [share] * 2
         assert outcome.ticks.tolist() == [2 * count for count in ticks]
 
 
 def test_the_trees_compared_have_every_kind_of_node():
     assert kinds_of(node for tree in trees_of(3) for node in walk(tree)) == EVERY_KIND
-
-
-def test_the_known_trees_choices_as_text():
-    _, _, chosen = plain_taskselection(parse(KNOWN), 3)
-    lines = [f"{''.join('FT'[holds] for holds in truth)} {action}" for truth, action in chosen.items()]
-    assert lines == [
-        *("FFFF a1", "FFFT a3", "FFTF a2", "FFTT a6", "FTFF a1", "FTFT a3", "FTTF a2", "FTTT a6"),
-        *(f"T{rest} a0" for rest in ("FFF", "FFT", "FTF", "FTT", "TFF", "TFT", "TTF", "TTT")),
-    ]

@@ -27,6 +27,8 @@ VERBS: Mapping[str, tuple[str, str]] = {
     "bench": ("grammarbt.cli.bench:command", "Searchers × domains × seeds at equal budget."),
     "compare": ("grammarbt.cli.compare:command", "Put finished runs side by side."),
     "report": ("grammarbt.cli.report:command", "Write a page about a run, or about several."),
+    "replay": ("grammarbt.cli.replay:command", "Play an episode: the world beside the tree."),
+    "watch": ("grammarbt.cli.watch:command", "Follow a run of another process or machine."),
     "tree": ("grammarbt.cli.tree:command", "Show, convert, check or simplify a tree."),
     "grammar": ("grammarbt.cli.grammar:command", "Check a grammar, count and sample its trees, read trees back."),
     "check": ("grammarbt.cli.check:command", "Put a domain or a searcher to the conformance kit."),

@@ -14,6 +14,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from rich.text import Text
 
 from grammarbt.plugins.events import TrialFinished
+from grammarbt.report.sparkline import course
 from grammarbt.run.watch import Watcher
 
 if TYPE_CHECKING:
@@ -29,6 +30,10 @@ _SETTLED = 10
 """Episodes before the rate says something about the rest: the first wait for a domain to compile."""
 
 
+_CURVE = 60
+"""Letters of the curve."""
+
+
 class Display(Watcher):
     """Passes events on to the plugins, and keeps the figures that every display shows."""
 
@@ -36,6 +41,8 @@ class Display(Watcher):
         self._host = host
         self.name, self.total, self.done = "", 0, 0
         self.best = ""
+        self.steps: list[tuple[int, float]] = []
+        self.episodes = 0
         self.path = Path()
         self.started = time.monotonic()
 
@@ -51,6 +58,9 @@ class Display(Watcher):
         """Remember the best tree; tell the plugins."""
         if isinstance(event, TrialFinished) and event.best_tree:
             self.best = f"best {event.best:.5g}  {event.best_tree}"
+            self.episodes = event.episodes
+            if not self.steps or self.steps[-1][1] != event.best:
+                self.steps.append((event.episodes, event.best))
         self._host.notify(event)
 
     def phase(self, name: str, episodes: int) -> None:
@@ -91,7 +101,7 @@ class Lines(Display):
 
 
 class LiveDisplay(Display):
-    """A bar with the time left and episodes per second, and the best tree under it."""
+    """A bar with the time left and episodes per second, under it the best value's curve and the best tree."""
 
     def __init__(self, host: PluginHost) -> None:
         super().__init__(host)
@@ -116,7 +126,8 @@ class LiveDisplay(Display):
 
     def _render(self) -> Group:
         self._bar.update(self._task, completed=self.done, rate=f"{self.rate:,.0f}")
-        return Group(self._bar, Text(self.best, overflow="ellipsis"))
+        curve = Text(course(self.steps, self.episodes, _CURVE))
+        return Group(self._bar, curve, Text(self.best, overflow="ellipsis"))
 
 
 def make_display(host: PluginHost, *, quiet: bool) -> Display:

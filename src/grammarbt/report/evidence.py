@@ -29,12 +29,14 @@ class Evidence:
     Attributes:
         worlds: fresh worlds per tree.
         curve: how good the incumbents were.
+        reference: mean of the tree to compare with, on the same worlds.
         inspection: of the best tree.
         missing: why some of it is not there; empty if all is.
     """
 
     worlds: int
     curve: Sequence[Point] = ()
+    reference: float | None = None
     inspection: Inspection | None = None
     missing: str = ""
 
@@ -58,10 +60,13 @@ def gather(history: History, registry: Callable[[], Registry], worlds: int) -> E
 
 
 def _gathered(history: History, domain: Domain, worlds: int) -> Evidence:
+    validator = Validator(domain, history.seed)
     budget = int(history.resolved["budget"]) if history.finished else history.episodes
-    curve = measure_curve(history, Validator(domain, history.seed), budget, worlds)
+    curve = measure_curve(history, validator, budget, worlds)
+    other = history.reference
+    reference = None if other is None else validator.score(parse(other.tree), worlds).mean
     try:
         inspection = inspect_tree(parse(history.tree or ""), domain, history.seed, worlds)
     except GrammarBTError as error:
-        return Evidence(worlds, curve, missing=str(error))
-    return Evidence(worlds, curve, inspection)
+        return Evidence(worlds, curve, reference, missing=str(error))
+    return Evidence(worlds, curve, reference, inspection)

@@ -39,10 +39,12 @@ def origin(history: History) -> Markup:
     return section(
         "origin",
         "Where it comes from",
-        paragraph("This command makes the run again, trial by trial, in a new folder:"),
+        paragraph(
+            f"Seed {history.seed}, grammarbt {versions.get('grammarbt', '?')}. This command makes it again, trial by trial, in a new folder:"
+        ),
         element("pre", element("code", command_of(history)), tabindex="0"),
-        table("Parameters", ("Parameter", "Value"), _parameters(resolved)),
-        table("Versions", ("Software", "Version"), versions.items()),
+        details("Parameters and seed", table("Parameters", ("Parameter", "Value"), _parameters(resolved))),
+        details("Versions", table("Versions", ("Software", "Version"), versions.items())),
         details(f"The grammar {grammar['name']}", element("pre", element("code", grammar["text"]), tabindex="0")),
     )
 

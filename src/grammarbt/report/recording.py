@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from attrs import fields, frozen
 
 from grammarbt.bt import BehaviorTree, Status, format_leaf, leaves, node_statuses
-from grammarbt.domain import Episode, Mark, Watchable, scenario_numbers
 from grammarbt.domain import FIRST_VALIDATION_SCENARIO as FIRST
+from grammarbt.domain import Episode, Mark, Watchable, scenario_numbers
 from grammarbt.errors import DomainError, GrammarBTError
 
 if TYPE_CHECKING:

@@ -19,13 +19,13 @@ _SPEEDS = (1, 2, 5, 10, 20, 60)
 _USUAL_SPEED = 5
 
 _BUTTONS = (
-    ("start", "⏮", "To the start", "Home"),
-    ("previous-stop", "⏪", "Previous event", "p"),
+    ("start", "|◀", "To the start", "Home"),
+    ("previous-stop", "◀◀", "Previous event", "p"),
     ("back", "◀", "Step back", "←"),
-    ("play", "▶ Play", None, "Space"),
+    ("play", "Play", None, "Space"),
     ("forward", "▶", "Step forward", "→"),
-    ("next-stop", "⏩", "Next event", "n"),
-    ("end", "⏭", "To the end", "End"),
+    ("next-stop", "▶▶", "Next event", "n"),
+    ("end", "▶|", "To the end", "End"),
 )
 """Of the controls: name, what is on it, what it is called where that says too little, key."""
 

@@ -94,11 +94,17 @@ def _learning(history: History, evidence: Evidence) -> Markup:
         text = f"Means in the search, which flatter. The curve on fresh worlds is left out: {evidence.missing}."
         steps = thinned(history.improvements, _MOST_READINGS)
         readings = [Reading(max(each.episodes, 1), each.mean, each.mean, each.mean) for each in steps]
-    level = None if history.reference is None else (history.reference.name, history.reference.mean)
-    chart = Chart(
-        "Learning curve", "episodes", "mean return", (Line(history.searcher, tuple(readings)),), level
-    ).figure()  # fmt: skip
+    lines = (Line(history.searcher, tuple(readings)),)
+    chart = Chart("Learning curve", "episodes", "mean return", lines, _level(history, evidence)).figure()
     return section("curve", "Learning curve", paragraph(text), chart if readings else None)
+
+
+def _level(history: History, evidence: Evidence) -> tuple[str, float] | None:
+    """The reference, on the worlds of the curve if there is one."""
+    if history.reference is None:
+        return None
+    value = history.reference.mean if evidence.reference is None else evidence.reference
+    return history.reference.name, value
 
 
 def _inspected(history: History, evidence: Evidence) -> list[Markup]:
@@ -152,8 +158,8 @@ def _failures(history: History) -> Markup:
     failed = sum(number for status, number in history.statuses.items() if status != "ok")
     if not failed:
         return section("failures", heading, paragraph("None."))
-    rows = [(f"{each.trial:,}", each.status, each.error, each.tree) for each in history.failures]
+    rows = [(f"{each.trial:,}", each.status, each.tree, each.error) for each in history.failures]
     text = f"{failed:,} of {history.trials:,} trials gave no return."
     caption = "All of them" if len(rows) == failed else f"The first {len(rows)}"
-    listed = table(caption, ("Trial", "Status", "Error", "Tree"), rows)
+    listed = table(caption, ("Trial", "Status", "Tree", "Error"), rows)
     return section("failures", heading, paragraph(text), listed)

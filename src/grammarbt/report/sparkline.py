@@ -2,12 +2,29 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from math import isfinite
 
 from grammarbt.report.thinning import thinned
 
 _BARS = "▁▂▃▄▅▆▇█"
+
+
+def course(steps: Sequence[tuple[int, float]], until: int, width: int) -> str:
+    """A value that rises in steps, drawn over episodes.
+
+    Args:
+        steps: after how many episodes it became what.
+        until: episodes at the right end.
+        width: letters.
+    """
+    if not steps:
+        return ""
+    first = steps[0][0]
+    places = [first + (until - first) * at // max(width - 1, 1) for at in range(width)]
+    episodes = [step for step, _ in steps]
+    return sparkline([steps[bisect_right(episodes, place) - 1][1] for place in places], width)
 
 
 def sparkline(values: Sequence[float], width: int) -> str:

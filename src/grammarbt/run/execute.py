@@ -154,7 +154,7 @@ class _Run:
 
     def evaluated(self, trials: Sequence[Trial]) -> None:
         self.recorder.batch(trials)
-        metrics = guarded("metrics", self.setup.searcher.metrics)
+        metrics = self.recorder.metrics = guarded("metrics", self.setup.searcher.metrics)
         first = self.tally.trials - len(trials) + 1
         for number, trial in enumerate(trials, first):
             self.watcher.advance(trial.simulated)

@@ -167,6 +167,19 @@ def iterate_journal(path: Path, keep: int | None = None, start: Position = START
     return (json.loads(line[:-_TAIL] + b"}") for line in _lines(path, keep, start))
 
 
+def events_after(path: Path, start: Position, most: int) -> tuple[list[Event], Position]:
+    """At most so many events after a position, and the position after them: for following a run that goes on.
+
+    Raises:
+        RunError: as `read_journal`.
+    """
+    lines = list(_lines(path, start.events + most, start))
+    if not lines:
+        return [], start
+    end = Position(start.events + len(lines), start.size + sum(map(len, lines)), int(lines[-1][-11:-3], 16))
+    return [json.loads(line[:-_TAIL] + b"}") for line in lines], end
+
+
 def holds(path: Path, position: Position) -> bool:
     """Whether a journal passes through a position.
 

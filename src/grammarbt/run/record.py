@@ -11,7 +11,7 @@ from grammarbt.errors import RunError
 from grammarbt.run.journal import Journal, Position
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
     from typing import Self, TextIO
 
     from grammarbt.run.evaluate import Trial
@@ -31,6 +31,7 @@ class Recorder:
 
     Attributes:
         batches: how many were recorded.
+        metrics: what the searcher last said of itself, which goes to the timing.
 
     Raises:
         RunError: the timing cannot be written.
@@ -38,6 +39,7 @@ class Recorder:
 
     def __init__(self, folder: RunFolder, journal: Journal, batches: int = 0) -> None:
         self.batches = batches
+        self.metrics: Mapping[str, float] = {}
         self._journal = journal
         try:
             self._timing = folder.timing.open("a+", encoding="utf-8", errors="replace")
@@ -90,7 +92,8 @@ class Recorder:
 
     def _time(self) -> None:
         seconds = self.seconds
-        line = {"batch": self.batches, "episodes": self._untimed, "seconds": round(seconds, 6)}
+        metrics = {name: float(value) for name, value in self.metrics.items()}
+        line = {"batch": self.batches, "episodes": self._untimed, "seconds": round(seconds, 6), "metrics": metrics}
         self._due, self._untimed = seconds + _EVERY, 0
         try:
             self._timing.write(json.dumps(line) + "\n")

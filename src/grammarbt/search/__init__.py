@@ -5,12 +5,16 @@ from grammarbt.search.bandits import Arm, Bandit, BanditName, ThresholdAscent, U
 from grammarbt.search.base import Evaluation, EvaluationStatus, Proposal, SearchContext, Searcher, Snapshotting
 from grammarbt.search.batches import Batches, BatchSearcher, Scenarios, Strategy, Width
 from grammarbt.search.behaviours import behaviour_of
-from grammarbt.search.blocks import Behaviour, BlockDag, BlockNode, Piece, piece_of
+from grammarbt.search.blocks import Behaviour, BlockDag, BlockNode, Piece, PieceSource, Stream, piece_of
+from grammarbt.search.climb import Climb, ClimbParameters
 from grammarbt.search.derivations import Step, block_derivations, leftmost, position_of
 from grammarbt.search.edits import Edits, Site
 from grammarbt.search.evolution import Evolution, EvolutionParameters
 from grammarbt.search.fame import HallOfFame
-from grammarbt.search.general import GeneralSearch
+from grammarbt.search.general import GeneralSearch, search_any_grammar
+from grammarbt.search.idle import IdleElements
+from grammarbt.search.listmoves import ListNeighbours, ListParts
+from grammarbt.search.listspace import ListSpace, block_dags
 from grammarbt.search.moves import DerivationTree, Moves, pick
 from grammarbt.search.race import Runner, closes, differences, judge, next_stage
 from grammarbt.search.rootlist import ListedTree, RootList
@@ -18,12 +22,14 @@ from grammarbt.search.rows import Item, Row, Rows
 from grammarbt.search.scoring import Score, Scorer
 from grammarbt.search.short import ShortFirst
 from grammarbt.search.smallest import smallest_first
+from grammarbt.search.space import Around, EditSpace, Memory, Neighbour, Space
 from grammarbt.search.states import State, States, Transition, Walk
 from grammarbt.search.trim import reached_positions, trimmed
 
 __all__ = [
     "AnnealedSearch",
     "Arm",
+    "Around",
     "Bandit",
     "BanditName",
     "BatchSearcher",
@@ -31,7 +37,10 @@ __all__ = [
     "Behaviour",
     "BlockDag",
     "BlockNode",
+    "Climb",
+    "ClimbParameters",
     "DerivationTree",
+    "EditSpace",
     "Edits",
     "Evaluation",
     "EvaluationStatus",
@@ -39,10 +48,17 @@ __all__ = [
     "EvolutionParameters",
     "GeneralSearch",
     "HallOfFame",
+    "IdleElements",
     "Item",
+    "ListNeighbours",
+    "ListParts",
+    "ListSpace",
     "ListedTree",
+    "Memory",
     "Moves",
+    "Neighbour",
     "Piece",
+    "PieceSource",
     "Proposal",
     "RootList",
     "Row",
@@ -56,16 +72,19 @@ __all__ = [
     "ShortFirst",
     "Site",
     "Snapshotting",
+    "Space",
     "State",
     "States",
     "Step",
     "Strategy",
+    "Stream",
     "ThresholdAscent",
     "Transition",
     "Ucb1",
     "Walk",
     "Width",
     "behaviour_of",
+    "block_dags",
     "block_derivations",
     "closes",
     "differences",
@@ -77,6 +96,7 @@ __all__ = [
     "piece_of",
     "position_of",
     "reached_positions",
+    "search_any_grammar",
     "smallest_first",
     "trimmed",
 ]

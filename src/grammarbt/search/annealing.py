@@ -21,7 +21,7 @@ from grammarbt.search.moves import pick
 
 FIRST_TREES = 50
 ELITES = 5
-FROM_ELITE = 1 / 3
+FROM_ELITE = 2 / 3
 """Chance that a round begins from an elite rather than from the best of some random trees."""
 LOSSES = 200
 """The first losses, which temperatures are scaled to."""
@@ -74,6 +74,7 @@ class AnnealedSearch:
         """One cooling; gives the best place that it came to."""
         first = yield from self._first(width)
         best = yield from self._anneal(first, width)
+        best = yield from self._polish(best)
         self.rounds += 1
         self.elites = sorted([*self.elites, best], key=lambda place: -place.value)[:ELITES]
         return best
@@ -117,6 +118,16 @@ class AnnealedSearch:
                 if here.value > best.value:
                     best = here
         return best
+
+    def _polish(self, place: Place) -> Batches[Place]:
+        """Drop what is useless, as long as that gains."""
+        while True:
+            shorter = self.edits.shorter(place.site, self.rng)
+            values = yield from self._values(shorter)
+            at = int(np.argmax(values)) if values else 0
+            if not values or values[at] <= place.value:
+                return place
+            place = self._place(shorter[at], values[at])
 
     def _accepts(self, gain: float, temperature: float) -> bool:
         if gain >= 0.0:

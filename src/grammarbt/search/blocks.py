@@ -6,9 +6,12 @@ short words first. A larger one is derived as the walks go, by the productions' 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from bisect import bisect_right
+from collections.abc import Callable, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
+from itertools import accumulate
 from math import exp, log
+from typing import Protocol
 
 import numpy as np
 from attrs import define, field, frozen
@@ -22,6 +25,9 @@ SHORTNESS = 0.2
 
 FORMS_PER_WORD = 4
 """Partial sub-trees up to which a block is listed, per word that it may have."""
+
+STREAM_DRAWS = 50
+"""Draws in a row that were all had before, after which a stream begins again."""
 
 Behaviour = Callable[[BehaviorTree], object]
 """Equal for trees of which one is enough."""
@@ -48,10 +54,18 @@ class Piece:
 
 @define(eq=False)
 class BlockNode(Arm):
-    """A partial sub-tree; `children` is None until it is expanded, and holds (production, node, weight)."""
+    """A partial sub-tree.
+
+    Attributes:
+        form: what it stands for.
+        children: (production, node, weight); None until it is expanded.
+        bounds: running sums of the weights; None until one child is drawn by weight.
+        piece: the sub-tree, once it was drawn.
+    """
 
     form: SententialForm
     children: list[tuple[int, BlockNode, float]] | None = field(default=None, repr=False)
+    bounds: list[float] | None = field(default=None, init=False, repr=False)
     piece: Piece | None = field(default=None, init=False, repr=False)
 
 
@@ -60,6 +74,26 @@ def piece_of(grammar: BoundGrammar, block: int, derivation: Derivation) -> Piece
     form = grammar.derive(derivation, block)
     tree = grammar.tree(form)
     return Piece(block, derivation, form.symbols, tree, len(leaves(tree)))
+
+
+class PieceSource(Protocol):
+    """Draws sub-trees of a block."""
+
+    @property
+    def nodes(self) -> Mapping[SententialForm, BlockNode]:
+        """Partial sub-trees met so far."""
+        ...
+
+    @property
+    def weight(self) -> float:
+        """How much the block deserves when nothing is known."""
+        ...
+
+    def draw(
+        self, rng: np.random.Generator, prefix: Derivation, bandit: Bandit | None
+    ) -> tuple[list[BlockNode], Piece]:
+        """A sub-tree that begins along the prefix, and the nodes on the way to it."""
+        ...
 
 
 class BlockDag:
@@ -100,11 +134,14 @@ class BlockDag:
         """
         path, derivation = self._follow(prefix)
         while children := self._expanded(path[-1]):
-            unvisited = [child for child in children if not child[1].visits] if bandit else children
+            unvisited = [child for child in children if not child[1].visits] if bandit else ()
             if bandit and not unvisited:
                 production, node = _most_urgent(bandit, path[-1], children)
+            elif bandit and len(unvisited) < len(children):
+                production, node = _by_weight(rng, unvisited, list(accumulate(child[2] for child in unvisited)))
+                bandit = None
             else:
-                production, node = _by_weight(rng, unvisited)
+                production, node = _by_weight(rng, children, _bounds(path[-1], children))
                 bandit = None
             path.append(node)
             derivation.append(production)
@@ -188,13 +225,16 @@ class BlockDag:
         return sum(not self.grammar.is_marker(symbol) for symbol in form.symbols)
 
 
-def _by_weight(rng: np.random.Generator, children: list[tuple[int, BlockNode, float]]) -> tuple[int, BlockNode]:
-    drawn = float(rng.random()) * sum(weight for _, _, weight in children)
-    for production, node, weight in children:
-        drawn -= weight
-        if drawn < 0.0:
-            return production, node
-    return children[-1][:2]
+def _by_weight(
+    rng: np.random.Generator, children: Sequence[tuple[int, BlockNode, float]], bounds: Sequence[float]
+) -> tuple[int, BlockNode]:
+    return children[bisect_right(bounds, float(rng.random()) * bounds[-1], hi=len(bounds) - 1)][:2]
+
+
+def _bounds(node: BlockNode, children: Sequence[tuple[int, BlockNode, float]]) -> list[float]:
+    if node.bounds is None:
+        node.bounds = list(accumulate(weight for _, _, weight in children))
+    return node.bounds
 
 
 def _most_urgent(
@@ -202,3 +242,37 @@ def _most_urgent(
 ) -> tuple[int, BlockNode]:
     trials = max(parent.visits, 1)
     return max(children, key=lambda child: bandit.index(child[1], child[1].visits, trials))[:2]
+
+
+class Stream:
+    """Draws each sub-tree of a block once before any comes again.
+
+    Args:
+        dag: the block's.
+    """
+
+    def __init__(self, dag: BlockDag) -> None:
+        self.dag = dag
+        self._drawn: set[Piece] = set()
+
+    @property
+    def nodes(self) -> Mapping[SententialForm, BlockNode]:
+        """The DAG's."""
+        return self.dag.nodes
+
+    @property
+    def weight(self) -> float:
+        """The DAG's."""
+        return self.dag.weight
+
+    def draw(
+        self, rng: np.random.Generator, prefix: Derivation, bandit: Bandit | None
+    ) -> tuple[list[BlockNode], Piece]:
+        """A sub-tree that has its turn; along a prefix, any."""
+        for _ in range(STREAM_DRAWS):
+            path, piece = self.dag.draw(rng, prefix, bandit)
+            if prefix or piece not in self._drawn:
+                self._drawn.add(piece)
+                return path, piece
+        self._drawn = {piece}
+        return path, piece

@@ -102,6 +102,20 @@ class Edits:
                 break
         return None if found == first.tree.steps else found
 
+    def shorter(self, site: Site, rng: np.random.Generator) -> list[Derivation]:
+        """Every derivation with an item less, or with an item's inner row in its place."""
+        found: dict[Derivation, None] = {}
+        for row in site.rows:
+            for at in range(len(row.items)):
+                inner = [other.items for other in site.rows if row.holds(at, other.node)]
+                for items in ((), *inner):
+                    kept = [item for item in items if self.rows.admits(row.symbol, item)]
+                    template = self._spliced(site, row, (at, at + 1), kept)
+                    derivation = self.short.complete(template, rng) if template else None
+                    if derivation is not None and derivation != site.tree.steps:
+                        found[derivation] = None
+        return list(found)
+
     def _edited(self, edit: Edit, site: Site, other: Site, rng: np.random.Generator) -> Derivation | None:
         """Fill open places, rather by productions that the derivation does not have yet."""
         template = edit(site, other, rng)

@@ -16,8 +16,11 @@ from grammarbt.search.scoring import Score, Scorer
 
 Genome = TypeVar("Genome")
 
-ATTEMPTS = 20
+CHILDREN = 20
 """Children bred in search of one that was not simulated yet, before a stranger takes its place."""
+
+STRANGERS = 1_000
+"""Strangers looked at, at most, for the same."""
 
 
 @frozen(kw_only=True)
@@ -127,14 +130,14 @@ class Evolution(Generic[Genome]):
         self, population: Sequence[Individual[Genome]], siblings: dict[Derivation, Genome]
     ) -> tuple[Derivation, Genome] | None:
         """A child that no sibling resembles, and that was not simulated yet if that would show nothing new."""
-        for attempt in range(2 * ATTEMPTS):
-            if attempt < ATTEMPTS:
+        for attempt in range(CHILDREN + STRANGERS):
+            if attempt < CHILDREN:
                 genome = self.species.child(self._winner(population), self._winner(population))
             else:
                 genome = self.species.stranger()
             derivation = self.species.derivation(genome)
             if derivation not in siblings and not self.scorer.is_settled(derivation):
-                self.strangers += attempt >= ATTEMPTS
+                self.strangers += attempt >= CHILDREN
                 return derivation, genome
         return None
 

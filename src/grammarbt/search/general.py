@@ -8,16 +8,27 @@ import numpy as np
 from attrs import frozen
 
 from grammarbt.bt import BehaviorTree
-from grammarbt.grammar import Derivation
+from grammarbt.grammar import Derivation, parse_tree
 from grammarbt.search.annealing import AnnealedSearch
-from grammarbt.search.base import Proposal
+from grammarbt.search.base import Proposal, SearchContext
 from grammarbt.search.batches import Batches, Strategy, Width
+from grammarbt.search.climb import Climb, ClimbParameters
+from grammarbt.search.edits import Edits
+from grammarbt.search.space import EditSpace
 
 PROBED = 12
 """Random trees that are simulated in a few scenarios each."""
 SCENARIOS = 3
 QUIET = 0.1
 """How much the scenarios may matter, as a share of how much the trees matter."""
+
+
+def search_any_grammar(context: SearchContext, parameters: ClimbParameters) -> GeneralSearch:
+    """The search of a language whose trees need not be lists."""
+    edits = Edits(context.grammar)
+    start = None if context.start is None else parse_tree(context.grammar, context.start)
+    annealed = AnnealedSearch(context, edits, parameters.round_episodes, start)
+    return GeneralSearch(annealed, Climb(context, parameters, EditSpace(edits)))
 
 
 @frozen(eq=False)

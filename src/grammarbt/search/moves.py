@@ -14,7 +14,6 @@ from typing import TypeVar
 import numpy as np
 from attrs import field, frozen
 
-from grammarbt.bt import Action, Condition
 from grammarbt.grammar import BoundGrammar, Derivation
 from grammarbt.search.derivations import Template
 from grammarbt.search.states import States
@@ -79,9 +78,6 @@ class Moves:
         self.states = states or States(grammar)
         parts = (filter(grammar.is_nonterminal, production.rhs) for production in grammar.productions)
         self._parts = [tuple(own) for own in parts]
-        tokens = enumerate(grammar.terminals)
-        self._leaf_terminals = frozenset(at for at, token in tokens if isinstance(token, Action | Condition))
-        self._leaves = [sum(symbol in self._leaf_terminals for symbol in own.rhs) for own in grammar.productions]
         self._varied = frozenset(lhs for lhs, own in grammar.by_lhs.items() if len(own) > 1)
         self._recursive = {
             lhs: [production.number for production in own if lhs in production.rhs]
@@ -204,48 +200,9 @@ class Moves:
                 return found
         return None
 
-    def without_idle(self, tree: DerivationTree, ticks: Sequence[int], rng: np.random.Generator) -> DerivationTree:
-        """The tree without those elements of lists of which no leaf was ticked, as far as the language allows.
-
-        Args:
-            tree: a whole derivation.
-            ticks: how often each leaf of its tree was ticked.
-            rng: chance.
-        """
-        while idle := self._idle(tree, ticks):
-            for node, first, last in idle:
-                found = self.without(tree, node, rng)
-                if found is not None:
-                    tree, ticks = self.tree(found), (*ticks[:first], *ticks[last:])
-                    break
-            else:
-                break
-        return tree
-
-    def _idle(self, tree: DerivationTree, ticks: Sequence[int]) -> list[tuple[int, int, int]]:
-        """Elements that never acted, with where their leaves begin and end."""
-        starts = self._first_leaves(tree)
-        spans = ((at, starts[at], starts[at] + self._leaves_below(tree, at)) for row in self._rows(tree) for at in row)
-        return [(at, first, last) for at, first, last in spans if first < last and not any(ticks[first:last])]
-
-    def _first_leaves(self, tree: DerivationTree) -> list[int]:
-        """Per node, how many leaves of the tree stand before it."""
-        found: list[int] = []
-        pending = [self.grammar.start_symbol]
-        leaves = 0
-        while pending:
-            symbol = pending.pop()
-            if symbol >= self.grammar.start_symbol:
-                production = tree.steps[len(found)]
-                found.append(leaves)
-                if production is not None:
-                    pending += reversed(self.grammar.productions[production].rhs)
-            else:
-                leaves += symbol in self._leaf_terminals
-        return found
-
-    def _leaves_below(self, tree: DerivationTree, node: int) -> int:
-        return sum(self._leaves[step] for step in tree.below(node) if step is not None)
+    def elements(self, tree: DerivationTree) -> list[int]:
+        """The nodes that are elements of lists."""
+        return [at for row in self._rows(tree) for at in row]
 
     def _nodes(self, tree: DerivationTree) -> list[int]:
         return [node for node, symbol in enumerate(tree.symbols) if symbol in self._varied]

@@ -109,10 +109,6 @@ class Walk:
         while len(stack) >= height and (state := self.state):
             take(state.draw(rng))
 
-    def copy(self) -> Walk:
-        """A walk that goes on from here on its own."""
-        return Walk(self.states, self.state, self.stack[:], self.derivation[:])
-
 
 class States:
     """The states of a grammar's leftmost derivations, made as they are met.

@@ -5,7 +5,6 @@ Each check raises `NonconformityError` with the case that shows the fault and wh
 
 from __future__ import annotations
 
-import shutil
 import tempfile
 from collections.abc import Sequence
 from functools import partial
@@ -23,7 +22,7 @@ from grammarbt.testing.worlds import FINITE, INFINITE, TINY, Lamps
 
 _WIDTHS = (1, 7, 32)
 _FEW = 5
-_WORLD = f"{Path(__file__).with_name('worlds.py')}:{Lamps.__name__}"
+_JOURNAL = "journal.jsonl"
 
 
 def check_proposals_are_words_of_the_language(subject: SearcherSubject) -> str | None:
@@ -122,17 +121,16 @@ def check_comes_to_an_end(subject: SearcherSubject) -> str | None:
     with tempfile.TemporaryDirectory() as folder:
         grammar = Path(folder) / "tiny.grammar"
         grammar.write_text(TINY, encoding="utf-8")
-        arguments = ["--grammar", str(grammar), "--budget", "1000", "--trials", "20000"]
-        _run(subject, Path(folder) / "run", arguments)
+        subject.run(Path(folder) / "run", "--grammar", str(grammar), "--budget", "1000", "--trials", "20000")
     return None
 
 
 def check_same_seed_same_run(subject: SearcherSubject) -> str | None:
     """The journal has the same bytes whatever PYTHONHASHSEED is."""
     with tempfile.TemporaryDirectory() as folder:
-        first, second = (_run(subject, Path(folder) / str(n), (), hash_seed=n) for n in (1, 2))
+        again = subject.run(Path(folder) / "run", "--batch", "4", hash_seed=2)
         _require_same(
-            first, second, "under another PYTHONHASHSEED", "never iterate over a set, or sort by hash() or id()"
+            subject, again, "under another PYTHONHASHSEED", "never iterate over a set, or sort by hash() or id()"
         )
     return None
 
@@ -140,22 +138,21 @@ def check_same_seed_same_run(subject: SearcherSubject) -> str | None:
 def check_worker_count_does_not_matter(subject: SearcherSubject) -> str | None:
     """At an equal batch, one worker or two, the journal has the same bytes."""
     with tempfile.TemporaryDirectory() as folder:
-        first, second = (_run(subject, Path(folder) / str(n), ("--batch", "4", "--workers", str(n))) for n in (1, 2))
-        _require_same(first, second, "with two workers", "depend on the order asked, not on the order of arrival")
+        again = subject.run(Path(folder) / "run", "--batch", "4", "--workers", "2", hash_seed=1)
+        _require_same(subject, again, "with two workers", "depend on the order asked, not on the order of arrival")
     return None
 
 
 def check_replay_equals_one_go(subject: SearcherSubject) -> str | None:
     """A run cut in the middle and resumed ends with the journal of the run that was not."""
     with tempfile.TemporaryDirectory() as folder:
-        whole = _run(subject, Path(folder) / "whole", ())
-        cut = Path(folder) / "cut"
-        shutil.copytree(whole.parent, cut)
-        lines = whole.read_bytes().splitlines(keepends=True)
-        (cut / whole.name).write_bytes(b"".join(lines[: len(lines) // 2]))
-        subject.command_line(["resume", str(cut), "--json"])
+        for name, content in subject.finished_run.items():
+            (Path(folder) / name).write_bytes(content)
+        lines = subject.finished_run[_JOURNAL].splitlines(keepends=True)
+        (Path(folder) / _JOURNAL).write_bytes(b"".join(lines[: len(lines) // 2]))
+        subject.command_line(["resume", folder, "--json"], hash_seed=1)
         _require_same(
-            whole, cut / whole.name, "after an interruption", "keep no state outside of what ask and tell bring"
+            subject, Path(folder), "after an interruption", "keep no state outside of what ask and tell bring"
         )
     return None
 
@@ -214,16 +211,9 @@ def _failing(status: EvaluationStatus, told: Sequence[Evaluation]) -> list[Evalu
     return [Evaluation(each.proposal, (), (), status, "planted") if at in bad else each for at, each in enumerate(told)]
 
 
-def _run(subject: SearcherSubject, out: Path, arguments: Sequence[str], hash_seed: int = 0) -> Path:
-    """A run's journal."""
-    settings = [word for key, value in subject.settings.items() for word in ("--set", f"searcher.{key}={value}")]
-    common = ["--domain", _WORLD, "--searcher", subject.name, "--budget", str(subject.budget), "--validation", "2"]
-    subject.command_line(["run", *common, *settings, *arguments, "--out", str(out), "--json"], hash_seed)
-    return out / "journal.jsonl"
-
-
-def _require_same(first: Path, second: Path, when: str, advice: str) -> None:
-    mine, theirs = (path.read_bytes().splitlines() for path in (first, second))
+def _require_same(subject: SearcherSubject, again: Path, when: str, advice: str) -> None:
+    """The run in that folder has the journal of the subject's finished run."""
+    mine, theirs = subject.finished_run[_JOURNAL].splitlines(), (again / _JOURNAL).read_bytes().splitlines()
     differ = next((at for at, pair in enumerate(zip(mine, theirs, strict=False)) if pair[0] != pair[1]), None)
     if differ is None and len(mine) != len(theirs):
         differ = min(len(mine), len(theirs))

@@ -6,8 +6,10 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -18,6 +20,7 @@ from grammarbt.domain import Domain, Outcome, Scenarios, scenario_numbers
 from grammarbt.grammar import BoundGrammar, bind, load_grammar
 from grammarbt.plugins import PluginHost, PluginOptions, Registry
 from grammarbt.testing.verdicts import NonconformityError
+from grammarbt.testing.worlds import Lamps
 
 if TYPE_CHECKING:
     from grammarbt.search import SearchContext, Searcher
@@ -25,6 +28,7 @@ if TYPE_CHECKING:
 SEED = 0
 _SAMPLES = 6
 _LONGEST_LINE = 300
+_WORLD = f"{Path(__file__).with_name('worlds.py')}:{Lamps.__name__}"
 
 
 def open_registry() -> Registry:
@@ -101,7 +105,7 @@ class DomainSubject:
         return cast("list[list[float]]", answer)
 
 
-@frozen(slots=False)
+@frozen(slots=False)  # as above
 class SearcherSubject:
     """A searcher under test.
 
@@ -125,6 +129,24 @@ class SearcherSubject:
     def make(self, context: SearchContext) -> Searcher:
         """A new instance."""
         return self.registry.make_searcher(self.name, context, self.settings)
+
+    @cached_property
+    def finished_run(self) -> Mapping[str, bytes]:
+        """The files of a run in batches of four on one worker, by their names; what other runs are compared with."""
+        with tempfile.TemporaryDirectory() as folder:
+            out = self.run(Path(folder) / "run", "--batch", "4", hash_seed=1)
+            return {path.name: path.read_bytes() for path in sorted(out.iterdir()) if path.is_file()}
+
+    def run(self, out: Path, *arguments: str, hash_seed: int = 0) -> Path:
+        """Run the searcher on the lamps in a new Python process; gives the run's folder.
+
+        Raises:
+            NonconformityError: the run failed, or took longer than `seconds`.
+        """
+        settings = [word for key, value in self.settings.items() for word in ("--set", f"searcher.{key}={value}")]
+        common = ["--domain", _WORLD, "--searcher", self.name, "--budget", str(self.budget), "--validation", "2"]
+        self.command_line(["run", *common, *settings, *arguments, "--out", str(out), "--json"], hash_seed)
+        return out
 
     def command_line(self, arguments: Sequence[str], hash_seed: int = 0) -> None:
         """Call the command line in a new Python process.

@@ -12,6 +12,7 @@ from grammarbt.grammar import Derivation, parse_tree
 from grammarbt.search import (
     Batches,
     BatchSearcher,
+    IdleElements,
     Moves,
     Score,
     Scorer,
@@ -52,6 +53,7 @@ class AnnealedSearch:
         states = States(context.grammar)
         self.scorer = Scorer(states)
         self.moves = Moves(context.grammar, states)
+        self.idle = IdleElements(self.moves)
         self.kinds = (self.moves.regenerate, self.moves.insert, self.moves.delete, self.moves.reorder)
         self.accepted = self.resets = self.steps = 0
 
@@ -88,7 +90,7 @@ class AnnealedSearch:
         """So many different ones; fewer if they are hard to find."""
         tree = self.moves.tree(present.derivation)
         if self.parameters.trim and present.episodes >= self.parameters.episodes and present.ticks:
-            tree = self.moves.without_idle(tree, present.ticks, self.rng)
+            tree = self.idle.removed(tree, present.ticks, self.rng)
         found: dict[Derivation, None] = {}
         for attempt in range(ATTEMPTS * n):
             if len(found) == n:

@@ -13,7 +13,7 @@ from attrs import frozen
 
 from grammarbt.bt import BehaviorTree
 from grammarbt.errors import SearcherError
-from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
+from grammarbt.grammar import BoundGrammar, Derivation, SententialForm, parse_tree
 from grammarbt.search import (
     Arm,
     Batches,
@@ -55,6 +55,7 @@ class PaperSearch:
         self.subtrees: dict[tuple[int, Derivation], Arm] = {}
         self.episodes = self.restarts = 0
         self.worst = 0.0
+        self.start = context.start
         self._begin(self.base)
 
     def _begin(self, grammar: BoundGrammar) -> None:
@@ -63,7 +64,11 @@ class PaperSearch:
         self.bandit = make_bandit(self.parameters.bandit, 1.0 if self.parameters.c is None else self.parameters.c)
 
     def batches(self, width: Width) -> Batches[None]:
-        """One roll-out on one fresh scenario per proposal."""
+        """One roll-out on one fresh scenario per proposal; the first is the start tree, if there is one."""
+        if self.start is not None:
+            first = self._along(parse_tree(self.base, self.start))
+            evaluations = yield [first.proposal]
+            self._learn(first, evaluations[0])
         while True:
             planned = [self._roll_out(path) for _ in range(width()) if (path := self._select())]
             if not planned:
@@ -140,6 +145,15 @@ class PaperSearch:
         return best
 
     # Roll-out
+
+    def _along(self, derivation: Derivation) -> RollOut:
+        """A whole derivation, whose forms become nodes."""
+        path = [self.dag.root]
+        for production in derivation:
+            path.append(self._child(self.grammar.apply(path[-1].form, production)))
+        self.dag.close(path[-1])
+        start = self.scenarios.fresh(1)
+        return RollOut(tuple(path), Proposal(self.grammar.tree(path[-1].form), derivation, start, start + 1))
 
     def _roll_out(self, path: tuple[Node, ...]) -> RollOut:
         steps: list[Step] = []

@@ -6,13 +6,13 @@ from typing import Literal
 
 from attrs import field, frozen, validators
 
-from grammarbt.search import BanditName
+from grammarbt.search import BanditName, ClimbParameters
 
 Preset = Literal["default", "paper"]
 
 
 @frozen
-class DagMctsParameters:
+class DagMctsParameters(ClimbParameters):
     """How to search; fields that only one preset reads say so."""
 
     preset: Preset = field(
@@ -57,31 +57,6 @@ class DagMctsParameters:
         },
     )
 
-    first_trees: int = field(
-        default=60,
-        validator=validators.ge(1),
-        metadata={"help": "default: random trees that the first root is chosen from"},
-    )
-    restart_trees: int = field(
-        default=30,
-        validator=validators.ge(1),
-        metadata={"help": "default: random trees that a later root is chosen from"},
-    )
-    restart_after: int = field(
-        default=500,
-        validator=validators.ge(1),
-        metadata={"help": "default: episodes without an accepted proposal before a restart"},
-    )
-    race_episodes: int = field(
-        default=96,
-        validator=validators.ge(1),
-        metadata={"help": "default: episodes of the longest race against the root"},
-    )
-    duel_episodes: int = field(
-        default=48,
-        validator=validators.ge(1),
-        metadata={"help": "default: common episodes on which the roots of past restarts are compared"},
-    )
     trim: bool = field(
         default=True,
         metadata={"help": "default: drop sub-trees that were never ticked, insert only where the root's ticks arrive"},
@@ -92,4 +67,8 @@ class DagMctsParameters:
         metadata={
             "help": "default: words of a group's sub-tree up to which they are listed; larger groups are sampled"
         },
+    )
+    trace: str | None = field(
+        default=None,
+        metadata={"help": "GraphML file for the DAG with its statistics, written when the search ends"},
     )

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import chain, repeat
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -28,12 +26,14 @@ class Fork:
     Attributes:
         state: the state.
         gene: which of the genome's lists its codons come from.
+        choices: how many there are.
         shortest: the choice that leads to the lowest sub-tree.
         legs: what each choice leads to, once it has been made.
     """
 
     state: State = field(repr=False)
     gene: int
+    choices: int
     shortest: int
     legs: list[Leg | None] = field(repr=False)
 
@@ -80,7 +80,8 @@ class Mapper:
 
     def derivation(self, genome: Genome) -> Derivation:
         """What the genome stands for."""
-        codons = [self._read(own) for own in genome]
+        codons = list(map(iter, genome))
+        again = [self.wraps] * self.lists
         derivation: list[int] = []
         stack: list[int] = []
         leg = self._first
@@ -90,16 +91,17 @@ class Mapper:
             fork = leg.fork
             if fork is not None:
                 codon = next(codons[fork.gene], -1)
-                at = codon % len(fork.legs) if codon >= 0 else fork.shortest
+                if codon < 0 < again[fork.gene]:
+                    again[fork.gene] -= 1
+                    codons[fork.gene] = iter(genome[fork.gene])
+                    codon = next(codons[fork.gene], -1)
+                at = codon % fork.choices if codon >= 0 else fork.shortest
                 leg = fork.legs[at] or self._chosen(fork, at)
             elif stack:
                 symbol = stack.pop()
                 leg = leg.up.get(symbol) or self._above(leg, symbol)
             else:
                 return tuple(derivation)
-
-    def _read(self, codons: tuple[int, ...]) -> Iterator[int]:
-        return chain.from_iterable(repeat(codons, self.wraps + 1))
 
     def genome(self, derivation: Derivation, rng: np.random.Generator) -> Genome:
         """A genome that maps to the derivation; of all codons that make a choice, any is as likely."""
@@ -142,7 +144,7 @@ class Mapper:
         if fork is None:
             heights = [self.states.heights[production] for production in state.productions]
             shortest = heights.index(min(heights))
-            fork = Fork(state, self._genes[state.symbol], shortest, [None] * len(heights))
+            fork = Fork(state, self._genes[state.symbol], len(heights), shortest, [None] * len(heights))
             self._forks[state] = fork
         return fork
 

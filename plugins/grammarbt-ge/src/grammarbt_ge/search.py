@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from grammarbt.grammar import Derivation, parse_tree
-from grammarbt.search import BatchSearcher, Evolution, Scorer, SearchContext, States
+from grammarbt.search import BatchSearcher, Evolution, Scorer, SearchContext, States, pick
 from grammarbt_ge.initialise import Initialiser
 from grammarbt_ge.mapping import CODONS, Genome, Mapper
 from grammarbt_ge.parameters import GeParameters
@@ -52,7 +52,7 @@ class Genomes:
     def _crossed(self, one: Genome, other: Genome) -> Genome:
         if len(one) == 1:
             return ((*one[0][: self._cut(one[0])], *other[0][self._cut(other[0]) :]),)
-        return tuple(own if self.rng.random() < 0.5 else others for own, others in zip(one, other, strict=True))
+        return tuple(pick(lists, self.rng) for lists in zip(one, other, strict=True))
 
     def _cut(self, codons: tuple[int, ...]) -> int:
         return int(self.rng.random() * (len(codons) + 1))

@@ -9,6 +9,7 @@ from grammarbt.search import (
     BatchSearcher,
     DerivationTree,
     Evolution,
+    IdleElements,
     Moves,
     Scorer,
     SearchContext,
@@ -42,6 +43,7 @@ class Trees:
         self.rng = context.rng
         self.scorer = scorer
         self.moves = Moves(context.grammar, states)
+        self.idle = IdleElements(self.moves)
         self.mutations = (self.moves.regenerate, self.moves.insert, self.moves.delete, self.moves.reorder)
 
     def first(self, n: int) -> list[Derivation]:
@@ -61,14 +63,15 @@ class Trees:
 
     def child(self, one: Derivation, other: Derivation) -> Derivation:
         """Crossed over, or mutated; a parent itself if there is no way to do so within the language."""
-        tree = self._trimmed(one)
+        tree = self.trimmed(one)
         if self.rng.random() < self.parameters.crossover:
-            return self.moves.cross(tree, self._trimmed(other), self.rng) or one
+            return self.moves.cross(tree, self.trimmed(other), self.rng) or one
         return pick(self.mutations, self.rng)(tree, self.rng) or one
 
-    def _trimmed(self, derivation: Derivation) -> DerivationTree:
+    def trimmed(self, derivation: Derivation) -> DerivationTree:
+        """The derivation's tree, without what is known to be idle."""
         tree = self.moves.tree(derivation)
         known = self.scorer.scores.get(derivation)
         if not (self.parameters.trim and known and known.ticks):
             return tree
-        return self.moves.without_idle(tree, known.ticks, self.rng)
+        return self.idle.removed(tree, known.ticks, self.rng)

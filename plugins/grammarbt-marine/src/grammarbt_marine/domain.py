@@ -7,45 +7,37 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from grammarbt.domain import Outcome, Reference
+from grammarbt.domain import Outcome
 from grammarbt_marine import kernel
 from grammarbt_marine.parameters import MarineParameters
+from grammarbt_marine.program import LEAVES, make_program
+from grammarbt_marine.references import EXTENDED_REFERENCES, REFERENCES
 from grammarbt_marine.rules import make_rules
-from grammarbt_marine.state import make_states
-from grammarbt_marine.vocabulary import VOCABULARY
+from grammarbt_marine.state import Episodes, Room, make_room
+from grammarbt_marine.vocabulary import EXTENDED_VOCABULARY, VOCABULARY
 from grammarbt_marine.world import make_roadmaps
 
 if TYPE_CHECKING:
     from grammarbt.bt import Policy
-    from grammarbt.domain import Scenarios
+    from grammarbt.domain import Episode, Scenarios
     from grammarbt_marine.records import Records
-
-_REPORT = "→( (target found) ?( (in comms) [go to comms] ) [report] )"
-_DISARM = "→( (mine found) (is armed) [disarm] )"
-_RETRIEVE = "→( (object found) ?( (carrying object) [pick up] ) [take to drop off] )"
-_APPROACH = "→( (likely target found) [go to likely target] )"
-_EXPLORE = "→( [shortest path] )"
-_WANDER = "→( [random walk] )"
-
-_CODES = np.array([kernel.LEAVES.index(leaf.name) for leaf in VOCABULARY.leaves], dtype=np.int32)
 
 
 class Marine:
-    """A robot on a roadmap over a sea area reports targets, disarms mines and retrieves objects.
+    """Robots on a roadmap over a sea area report targets, disarm mines and retrieve objects.
 
     Scenario i uses roadmap i modulo `parameters.roadmaps`; where things are and what the sensors see depends on i.
     """
 
-    vocabulary = VOCABULARY
     grammar = "marine"
-    references = (
-        Reference("manual", f"?( {_REPORT} {_DISARM} {_RETRIEVE} {_APPROACH} {_EXPLORE} {_WANDER} )"),
-        Reference("best order", f"?( {_DISARM} {_RETRIEVE} {_APPROACH} {_REPORT} {_EXPLORE} {_WANDER} )"),
-    )
     depends_on: Literal["behaviour", "tree"] = "behaviour"
 
     def __init__(self, parameters: MarineParameters | None = None) -> None:
         self.parameters = parameters or MarineParameters()
+        extended = self.parameters.extra_leaves
+        self.vocabulary = EXTENDED_VOCABULARY if extended else VOCABULARY
+        self.references = EXTENDED_REFERENCES if extended else REFERENCES
+        self._codes = np.array([LEAVES.index(leaf.name) for leaf in self.vocabulary.leaves], dtype=np.int32)
 
     @cached_property
     def roadmaps(self) -> Records:
@@ -58,23 +50,20 @@ class Marine:
         return make_rules(self.parameters)
 
     @cached_property
-    def _states(self) -> Records:
-        return make_states(self.parameters.vertices)
+    def _room(self) -> Room:
+        return make_room(self.parameters)
 
     def simulate(self, policy: Policy, scenarios: Scenarios) -> Outcome:
         """Run one episode per scenario."""
-        program = _program(policy)
-        states = np.empty_like(self._states)  # its own, so that threads may share the domain
+        program = make_program(policy, self._codes)
+        room = Room(*map(np.empty_like, self._room))  # its own, so that threads may share the domain
         numbers = np.array(scenarios, dtype=np.int64)  # read-only or strided arrays would be compiled for anew
-        return Outcome(*kernel.simulate(program, states, self.roadmaps, self.rules, numbers))
+        episodes = Episodes(numbers, np.empty(numbers.shape))
+        kernel.simulate(program, room, self.roadmaps, self.rules, episodes)
+        return Outcome(episodes.returns, program.ticks)
 
+    def episode(self, policy: Policy, scenario: int) -> Episode:
+        """Record the episode that `simulate` scores, by the simulator in plain Python."""
+        from grammarbt_marine.recording import record  # noqa: PLC0415 - only to watch, and it is the domain's user
 
-def _program(policy: Policy) -> kernel.Program:
-    entries = np.empty(len(policy.leaf), dtype=kernel.ENTRY)
-    entries["leaf"] = _CODES[policy.leaf]
-    entries["occurrence"] = policy.occurrence
-    follow = entries["follow"]
-    follow[:, kernel.SUCCESS] = policy.on_success
-    follow[:, kernel.FAILURE] = policy.on_failure
-    follow[:, kernel.RUNNING] = policy.on_running
-    return kernel.Program(entries, policy.occurrences)
+        return record(self, policy.tree, scenario)

@@ -1,10 +1,11 @@
-"""What the marine robot can do and ask, in six groups."""
+"""What the marine robot can do and ask, in six groups, and in two more for one whose battery may run down."""
 
 from __future__ import annotations
 
 from grammarbt.bt import Status
 from grammarbt.domain import ActionType, ConditionType, Group, Vocabulary
 
+_ARRIVE = frozenset({Status.SUCCESS, Status.RUNNING})
 _GO_ON = frozenset({Status.FAILURE, Status.RUNNING})
 _WORK = frozenset({Status.SUCCESS, Status.FAILURE, Status.RUNNING})
 
@@ -16,7 +17,7 @@ VOCABULARY = Vocabulary(
                 ActionType(
                     "go to comms",
                     "Move one edge towards the nearest vertex in comms; success once there.",
-                    results=frozenset({Status.SUCCESS, Status.RUNNING}),
+                    results=_ARRIVE,
                 ),
                 ActionType(
                     "report",
@@ -37,7 +38,7 @@ VOCABULARY = Vocabulary(
             ),
             conditions=(
                 ConditionType("mine found", "A mine is likely at the robot's vertex."),
-                ConditionType("is armed", "The robot's vertex has no mine that it has disarmed."),
+                ConditionType("is armed", "The robot's vertex has no mine that was disarmed."),
             ),
         ),
         Group(
@@ -88,3 +89,32 @@ VOCABULARY = Vocabulary(
         ),
     )
 )
+"""The groups of the paper."""
+
+EXTENDED_VOCABULARY = Vocabulary(
+    (
+        *VOCABULARY.groups,
+        Group(
+            "g7",
+            actions=(
+                ActionType(
+                    "resurface",
+                    "Move one edge towards the nearest vertex at the surface; success there.",
+                    results=_ARRIVE,
+                ),
+            ),
+            conditions=(ConditionType("battery low", "The robot has travelled far since it was last at the surface."),),
+        ),
+        Group(
+            "g8",
+            actions=(
+                ActionType(
+                    "coverage",
+                    "Move one edge towards the next unvisited vertex of a sweep over the area; fails when all are visited.",
+                    results=_GO_ON,
+                ),
+            ),
+        ),
+    )
+)
+"""Those and the leaves that only the published simulator has."""

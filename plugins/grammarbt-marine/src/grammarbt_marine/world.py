@@ -1,4 +1,4 @@
-"""The sea area: roadmaps, distances on them and what a sensor sees from each vertex, as tables.
+"""The sea area: roadmaps, paths on them and what a sensor sees from each vertex, as tables.
 
 Everything that needs a logarithm or an exponential is worked out here, once, so that every implementation of the
 simulator adds and compares the same floating-point numbers.
@@ -10,15 +10,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from attrs import frozen
+from numpy.typing import NDArray
 
+from grammarbt_marine.layouts import make_layout
 from grammarbt_marine.records import Flags, Floats, Ints, Records, as_records
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from grammarbt_marine.layouts import Layout
     from grammarbt_marine.parameters import MarineParameters
 
-START, DROP_OFF = 0, 1
+CLASSES = 3
+"""Targets, mines and objects, in this order in every table by class."""
+
 WIDTH_STEP = 8
 """Rows of neighbours are this or a multiple wide: compiled code fits one width, and few widths mean few compilations."""
 
@@ -28,13 +31,17 @@ class Roadmap:
     """The tables of one roadmap with V vertices; rows shorter than the widest are padded with zeros.
 
     Attributes:
+        position: (V, 2 or 3) where each vertex is, the third how deep.
+        count: (3,) how many targets, mines and objects there are.
         neighbours: (V, N) the vertices joined to each vertex, ascending.
         degree: (V,) how many those are.
-        hops: (V, V) edges on the shortest path from a vertex to another.
+        distance: (V, V) cost of the cheapest path from a vertex to another; whole numbers when an edge costs one.
         next_hop: (V, V) first vertex on it, the lowest number among equals; from a vertex to itself, itself.
         surface: (V,) whether a vertex is at the surface.
         comms: (V,) whether it is in comms.
-        nearest_comms: (V,) the nearest vertex in comms, the lowest number among equals.
+        nearest_surface: (V,) the nearest vertex at the surface, the lowest number among equals.
+        nearest_comms: (V,) the nearest vertex in comms, likewise.
+        sweep: (V,) all vertices in the order of a sweep over the area, lane by lane.
         in_range: (V, K) the vertices that the sensor reaches from each vertex, ascending.
         reach: (V,) how many those are.
         detection: (V, K, 3) probability to detect a target, mine, object that is at that vertex.
@@ -42,13 +49,17 @@ class Roadmap:
         loss: (V, K, 3) what no detection adds to them; negative when the sensor is any good.
     """
 
+    position: Floats
+    count: Ints
     neighbours: Ints
     degree: Ints
-    hops: Ints
+    distance: Ints | Floats
     next_hop: Ints
     surface: Flags
     comms: Flags
-    nearest_comms: Ints
+    nearest_surface: NDArray[np.int64]
+    nearest_comms: NDArray[np.int64]
+    sweep: Ints
     in_range: Ints
     reach: Ints
     detection: Floats
@@ -63,86 +74,73 @@ def make_roadmaps(parameters: MarineParameters) -> Records:
 
 
 def make_roadmap(parameters: MarineParameters, rng: np.random.Generator) -> Roadmap:
-    """One roadmap: vertices uniform in the unit square, joined to their nearest, connected by the shortest gaps."""
-    positions = rng.random((parameters.vertices, 2))
-    positions[START] = parameters.start_x, parameters.start_y
-    positions[DROP_OFF] = parameters.drop_off_x, parameters.drop_off_y
-    surface = rng.random(parameters.vertices) < parameters.surface_share
-    surface[START] = True
-    distances = np.sqrt(((positions[:, None] - positions) ** 2).sum(axis=-1))
-    joined = _connected(_nearest_joined(distances, parameters.neighbours), distances)
-    comms = surface & (distances[START] <= parameters.comms_range)
-    hops = _hops(joined)
-    sensed = distances <= parameters.sensor_range
+    """One roadmap, and how many things there are on it."""
+    layout = make_layout(parameters, rng)
+    comms = layout.surface & (layout.lengths[0] <= parameters.comms_range)
+    distance, next_hop = _paths(layout, parameters)
+    sensed = layout.lengths <= parameters.sensor_range
     in_range = _places(sensed)
     return Roadmap(
-        neighbours=_places(joined),
-        degree=_counts(joined),
-        hops=hops,
-        next_hop=_next_hops(joined, hops),
-        surface=surface,
+        position=layout.positions,
+        count=_things(parameters, rng),
+        neighbours=_places(layout.joined),
+        degree=_counts(layout.joined),
+        distance=distance,
+        next_hop=next_hop,
+        surface=layout.surface,
         comms=comms,
-        nearest_comms=np.flatnonzero(comms)[hops[:, comms].argmin(axis=1)].astype(np.int16),
+        nearest_surface=_nearest(layout.surface, distance),
+        nearest_comms=_nearest(comms, distance),
+        sweep=_sweep(layout.positions, 2.0 * parameters.sensor_range),
         in_range=in_range,
         reach=_counts(sensed),
-        **_sensor(np.take_along_axis(distances, in_range.astype(np.int64), axis=1), parameters),
+        **_sensor(np.take_along_axis(layout.lengths, in_range.astype(np.int64), axis=1), parameters),
     )
 
 
-def _nearest_joined(distances: Floats, neighbours: int) -> Flags:
-    """Join each vertex to its nearest ones; the roadmap is undirected."""
-    others = distances + np.diag(np.full(len(distances), np.inf))
-    nearest = others.argsort(axis=1, kind="stable")[:, : min(neighbours, len(distances) - 1)]
-    joined = np.zeros(distances.shape, dtype=np.bool_)
-    np.put_along_axis(joined, nearest, values=True, axis=1)
-    return joined | joined.T
+def _things(parameters: MarineParameters, rng: np.random.Generator) -> Ints:
+    """How many things of each class there are; where chance decides, drawn until each class is present."""
+    p = parameters
+    count = np.array([p.targets, p.mines, p.objects])
+    odds = [*(p.thing_share / CLASSES,) * CLASSES, 1.0 - p.thing_share]
+    while p.thing_share and not (count := rng.multinomial(p.vertices - 2, odds)[:CLASSES]).all():
+        pass
+    return count.astype(np.int16)
 
 
-def _connected(joined: Flags, distances: Floats) -> Flags:
-    """Join the two nearest vertices of different components until there is one component."""
-    joined = joined.copy()
-    while True:
-        component = _components(joined)
-        gaps = np.where(component[:, None] == component, np.inf, distances)
-        here, there = np.unravel_index(gaps.argmin(), gaps.shape)
-        if np.isinf(gaps[here, there]):
-            return joined
-        joined[here, there] = joined[there, here] = True
+def _paths(layout: Layout, parameters: MarineParameters) -> tuple[Ints | Floats, Ints]:
+    """Cheapest paths between all pairs (Floyd and Warshall), and the lowest neighbour on each; all are connected."""
+    joined, lengths = layout.joined, layout.lengths
+    edge = lengths if parameters.edge_cost == "length" else np.ones(lengths.shape, dtype=np.int16)
+    distance = np.where(joined, edge, edge.max() * len(edge))
+    np.fill_diagonal(distance, 0)
+    for via in range(len(distance)):
+        np.minimum(distance, distance[:, via, None] + distance[via], out=distance)
+    next_hop = np.empty(joined.shape, dtype=np.int16)
+    for vertex, near in enumerate(map(np.flatnonzero, joined)):
+        next_hop[vertex] = near[(edge[vertex, near, None] + distance[near]).argmin(axis=0)]
+    np.fill_diagonal(next_hop, np.arange(len(distance)))
+    return distance, next_hop
 
 
-def _components(joined: Flags) -> NDArray[np.int64]:
-    """The lowest vertex of each vertex's component."""
-    lowest = np.arange(len(joined))
-    while True:
-        lower = np.minimum(lowest, np.where(joined, lowest, len(joined)).min(axis=1))
-        if (lower == lowest).all():
-            return lowest
-        lowest = lower
+def _nearest(flags: Flags, distance: Ints | Floats) -> NDArray[np.int64]:
+    """From each vertex the nearest that is flagged; argmin finds the first."""
+    return np.asarray(np.flatnonzero(flags)[distance[:, flags].argmin(axis=1)])
 
 
-def _hops(joined: Flags) -> Ints:
-    """Edges between all pairs (Floyd and Warshall); the roadmap is connected."""
-    hops = np.where(joined, 1, len(joined)).astype(np.int16)
-    np.fill_diagonal(hops, 0)
-    for via in range(len(joined)):
-        np.minimum(hops, hops[:, via, None] + hops[via], out=hops)
-    return hops
+def _sweep(positions: Floats, lane: float) -> Ints:
+    """All vertices by lanes of that width from left to right, in turn upwards and downwards."""
+    number = (positions[:, 0] // lane).astype(np.int64)
+    along = np.where(number % 2 == 0, positions[:, 1], -positions[:, 1])
+    return np.lexsort((along, number)).astype(np.int16)
 
 
-def _next_hops(joined: Flags, hops: Ints) -> Ints:
-    """The lowest neighbour that is one edge nearer; argmax finds the first."""
-    rows = [(joined[vertex, :, None] & (hops == hops[vertex] - 1)).argmax(axis=0) for vertex in range(len(joined))]
-    first = np.array(rows, dtype=np.int16)
-    np.fill_diagonal(first, np.arange(len(joined)))
-    return first
-
-
-def _sensor(distances: Floats, parameters: MarineParameters) -> dict[str, Floats]:
-    """Detection probabilities and log likelihood ratios; `distances` is (V, K)."""
+def _sensor(lengths: Floats, parameters: MarineParameters) -> dict[str, Floats]:
+    """Detection probabilities and log likelihood ratios; `lengths` is (V, K)."""
     p = parameters
     false_alarm = np.array([p.target_pf, p.mine_pf, p.object_pf])
     at_vertex = np.array([p.target_pd, p.mine_pd, p.object_pd])
-    reach = np.exp(-((distances / p.sensor_scale) ** 2))[:, :, None]
+    reach = np.exp(-((lengths / p.sensor_scale) ** 2))[:, :, None]
     detection = false_alarm + (at_vertex - false_alarm) * reach
     return {
         "detection": detection,

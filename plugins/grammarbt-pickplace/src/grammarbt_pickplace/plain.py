@@ -33,6 +33,8 @@ class Memory:
 class PlainPickPlace:
     """One episode: a run for each entry of the task's `starts`, one after the other."""
 
+    _successes: int
+
     def __init__(self, task: Task, tree: BehaviorTree, scenario: int, *, stochastic: bool = False) -> None:
         self._task, self._key, self._stochastic = task, mix(scenario), stochastic
         self._nodes, self._occurrences = sum(1 for _ in walk(tree)), len(leaves(tree))
@@ -75,8 +77,7 @@ class PlainPickPlace:
     def _begin_run(self) -> None:
         self.robot = PlainRobot(self._task.starts[self._runs], self._key + (self._runs << 48), self._stochastic)
         self._memories = [Memory() for _ in range(self._occurrences)]
-        self._tick, self._failures, self._over = 1, 0, False
-        self._successes: int = 0
+        self._tick, self._failures, self._successes, self._over = 1, 0, 0, False
         self._runs += 1
 
     def _act(self, action: str, memory: Memory) -> Status:

@@ -14,6 +14,7 @@ from grammarbt.bt import Status
 from grammarbt.domain import ActionType, ConditionType, Group, Outcome, Reference, Vocabulary
 from grammarbt.domain.plain import record
 from grammarbt_toys import foraging_kernel
+from grammarbt_toys.foraging_world import make_world
 from grammarbt_toys.parameters import ForagingParameters
 from grammarbt_toys.plain_foraging import PlainForaging
 from grammarbt_toys.program import make_program
@@ -74,24 +75,11 @@ class Foraging:
     def simulate(self, policy: Policy, scenarios: Scenarios) -> Outcome:
         """Run one episode per scenario; the return is the pieces of food brought to the hub."""
         program, numbers = make_program(policy), np.array(scenarios, dtype=np.int64)
-        world, p = _make_world(self.parameters), self.parameters
+        p = self.parameters
+        world = make_world(p.size, p.robots, p.sites, p.food, p.sight)
         return Outcome(foraging_kernel.simulate(program, world, p.food, p.steps, numbers), program.ticks)
 
     def episode(self, policy: Policy, scenario: int) -> Episode:
         """The episode that `simulate` scores; each robot's tick is a frame of its own."""
         world = PlainForaging(self.parameters, scenario)
         return record(world, policy.tree, world.box, "pieces of food")
-
-
-def _make_world(parameters: ForagingParameters) -> foraging_kernel.World:
-    """Room for a world, to be filled when an episode begins."""
-    p = parameters
-    return foraging_kernel.World(
-        food=np.zeros((p.size, p.size), dtype=np.int64),
-        sites=np.zeros((p.sites, 2), dtype=np.int64),
-        robots=np.zeros((p.robots, 2), dtype=np.int64),
-        heading=np.zeros((p.robots, 2), dtype=np.int64),
-        carrying=np.zeros(p.robots, dtype=np.bool_),
-        known=np.zeros((p.robots, 3, 2), dtype=np.int64),
-        sight=p.sight,
-    )

@@ -7,14 +7,13 @@ time. A robot looks before its tick, and again when the tick goes on after an ac
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from grammarbt.domain import Scenarios
 from grammarbt_toys.chance import uniform
-from grammarbt_toys.program import FAILURE, RUNNING, SUCCESS, Program, compiled
+from grammarbt_toys.foraging_world import UNKNOWN, Robot, World
+from grammarbt_toys.program import FAILURE, RUNNING, SUCCESS, Program, compiled, inlined
 
 LEAVES = (
     *("pick up", "drop", "explore"),
@@ -29,7 +28,6 @@ LEAVES = (
 PICK_UP, DROP, EXPLORE, MOVE_TOWARDS, MOVE_AWAY, NEIGHBOUR = 0, 1, 2, 3, 6, 9
 CARRYING, DROPPABLE, VISITED_BEFORE = 12, 13, 15
 HUB, SITE, FOOD = range(3)
-UNKNOWN = -1
 REACH = 1
 """A robot drops and picks up as many cells away."""
 TURNING = 0.1
@@ -38,28 +36,6 @@ STAYING = 4
 """The number of the middle of nine directions, which leads nowhere."""
 PLACING = 2**20
 """Decisions with this number and above place things; below, they are the robots'."""
-
-
-class World(NamedTuple):
-    """R robots on a square of N cells a side.
-
-    Attributes:
-        food: (N, N) pieces that lie in each cell.
-        sites: (S, 2) cells at which food lay at the start.
-        robots: (R, 2) where the robots are.
-        heading: (R, 2) the step that each robot explores along.
-        carrying: (R,) whether it carries a piece of food.
-        known: (R, 3, 2) where it last saw hub, site and food; -1 where it does not know.
-        sight: cells that a robot sees to each side.
-    """
-
-    food: NDArray[np.int64]
-    sites: NDArray[np.int64]
-    robots: NDArray[np.int64]
-    heading: NDArray[np.int64]
-    carrying: NDArray[np.bool_]
-    known: NDArray[np.int64]
-    sight: int
 
 
 @compiled
@@ -84,34 +60,35 @@ def simulate(program: Program, world: World, pieces: int, steps: int, scenarios:
     return returns
 
 
-@compiled
+@inlined
 def _begin(world: World, pieces: int, scenario: int) -> None:
-    """Put the robots anywhere and the sites anywhere far from the hub, which is in the middle."""
-    size = len(world.food)
+    """Put the robots anywhere and the sites anywhere far from the hub."""
+    size, item = len(world.food), PLACING
     world.food[:] = 0
-    world.carrying[:] = False
-    world.known[:] = UNKNOWN
-    item = PLACING
-    for robot in range(len(world.robots)):
-        item = _place(world.robots[robot], size, 0, scenario, item)
-        world.heading[robot] = _direction(uniform(scenario, 0, robot))
+    world.filled[0] = 0
+    for number in range(len(world.robots)):
+        robot = world.robots[number]
+        robot.row, robot.column, item = _free_cell(size, 0, scenario, item)
+        robot.down, robot.right = _direction(uniform(scenario, 0, number))
+        robot.carrying = False
+        robot.known[:] = UNKNOWN
     for site in range(len(world.sites)):
-        item = _place(world.sites[site], size, size // 4, scenario, item)
-        world.food[world.sites[site, 0], world.sites[site, 1]] += pieces
+        row, column, item = _free_cell(size, size // 4, scenario, item)
+        world.sites[site] = row, column
+        _add_food(world, row, column, pieces)
 
 
-@compiled
-def _place(cell: NDArray[np.int64], size: int, least: int, scenario: int, item: int) -> int:
-    """Draw a cell that is so far from the hub; gives the number of the next decision."""
+@inlined
+def _free_cell(size: int, least: int, scenario: int, item: int) -> tuple[int, int, int]:
+    """Draw a cell that is so far from the hub; gives it and the number of the next decision."""
     while True:
-        cell[0] = int(uniform(scenario, 0, item) * size)
-        cell[1] = int(uniform(scenario, 0, item + 1) * size)
+        row, column = int(uniform(scenario, 0, item) * size), int(uniform(scenario, 0, item + 1) * size)
         item += 2
-        if _distance(cell, size // 2, size // 2) >= least:
-            return item
+        if max(abs(row - size // 2), abs(column - size // 2)) >= least:
+            return row, column, item
 
 
-@compiled
+@inlined
 def _direction(chance: float) -> tuple[int, int]:
     """One of the eight directions, row by row."""
     number = int(chance * 8)
@@ -119,142 +96,164 @@ def _direction(chance: float) -> tuple[int, int]:
     return number // 3 - 1, number % 3 - 1
 
 
-@compiled
-def _distance(cell: NDArray[np.int64], row: int, column: int) -> int:
-    """In moves; a diagonal one counts once."""
-    return int(max(abs(cell[0] - row), abs(cell[1] - column)))
+@inlined
+def _add_food(world: World, row: int, column: int, pieces: int) -> None:
+    if world.food[row, column] == 0:
+        world.piles[world.filled[0]] = row, column
+        world.filled[0] += 1
+    world.food[row, column] += pieces
 
 
-@compiled
-def _tick(program: Program, world: World, robot: int, scenario: int, step: int) -> int:
+@inlined
+def _take_food(world: World, row: int, column: int) -> None:
+    world.food[row, column] -= 1
+    if world.food[row, column] == 0:
+        pile = 0
+        while world.piles[pile, 0] != row or world.piles[pile, 1] != column:
+            pile += 1
+        world.filled[0] -= 1
+        world.piles[pile] = world.piles[world.filled[0]]
+
+
+@inlined
+def _tick(program: Program, world: World, number: int, scenario: int, step: int) -> int:
     """Tick one robot; gives the pieces that it brought to the hub."""
+    robot = world.robots[number]
+    robot.moved = False
     _look(world, robot)
-    at, delivered, moved = 0, 0, False
+    at, delivered = 0, 0
     while at >= 0:
         leaf = program.leaf[at]
         program.ticks[program.occurrence[at]] += 1
         if leaf >= NEIGHBOUR:
-            status = SUCCESS if _holds(world, robot, leaf) else FAILURE
+            at = program.follow[at, SUCCESS if _holds(world, robot, leaf) else FAILURE]
+            continue
+        if leaf == EXPLORE:
+            status = _explore(world, robot, number, scenario, step)
+        elif leaf >= MOVE_TOWARDS:
+            status = _go(world, robot, leaf)
         elif leaf == PICK_UP:
             status = _pick_up(world, robot)
-        elif leaf == DROP:
-            delivered += _delivers(world, robot)
-            status = _drop(world, robot)
-        elif leaf == EXPLORE:
-            status = RUNNING if moved else _explore(world, robot, scenario, step)
         else:
-            status = _go(world, robot, leaf, moved)
-        moved = moved or status == RUNNING
+            delivered += robot.carrying != 0 and _near(world, robot, HUB, REACH)
+            status = _drop(world, robot)
         at = program.follow[at, status]
-        if leaf < NEIGHBOUR and at >= 0:
+        if at >= 0:
             _look(world, robot)
     return delivered
 
 
-@compiled
-def _look(world: World, robot: int) -> None:
-    """Remember the hub and a site that are in sight; forget a site in sight that is empty, and food out of sight."""
-    place, known, middle = world.robots[robot], world.known[robot], len(world.food) // 2
-    if _distance(place, middle, middle) <= world.sight:
-        known[HUB] = middle
+@inlined
+def _look(world: World, robot: Robot) -> None:
+    """Remember the hub and a site that are in sight; forget a site in sight that is empty."""
+    middle = len(world.food) // 2
+    if _distance(robot, middle, middle) <= world.sight:
+        robot.known[HUB, 0] = robot.known[HUB, 1] = middle
     for site in range(len(world.sites)):
-        row, column = world.sites[site]
-        if _distance(place, row, column) <= world.sight:
+        row, column = world.sites[site, 0], world.sites[site, 1]
+        if _distance(robot, row, column) <= world.sight:
             if world.food[row, column] > 0:
-                known[SITE, 0], known[SITE, 1] = row, column
-            elif _distance(known[SITE], row, column) == 0:
-                known[SITE] = UNKNOWN
-    _look_for_food(world, robot)
+                robot.known[SITE, 0], robot.known[SITE, 1] = row, column
+            elif robot.known[SITE, 0] == row and robot.known[SITE, 1] == column:
+                robot.known[SITE, 0] = robot.known[SITE, 1] = UNKNOWN
 
 
-@compiled
-def _look_for_food(world: World, robot: int) -> None:
-    """The nearest food in sight that does not lie at the hub; among equals the first, row by row."""
-    place, food, sight, size = world.robots[robot], world.food, world.sight, len(world.food)
-    north, west = max(0, place[0] - sight), max(0, place[1] - sight)
-    south, east = min(size, place[0] + sight + 1), min(size, place[1] + sight + 1)
-    nearest, at_row, at_column = sight + 1, UNKNOWN, UNKNOWN
-    for row in range(north, south):
-        for column in range(west, east):
-            if food[row, column] > 0 and _distance(place, row, column) < nearest:
-                nearest, at_row, at_column = _distance(place, row, column), row, column
-    world.known[robot, FOOD, 0], world.known[robot, FOOD, 1] = at_row, at_column
+@inlined
+def _distance(robot: Robot, row: int, column: int) -> int:
+    """In moves; a diagonal one counts once."""
+    return int(max(abs(robot.row - row), abs(robot.column - column)))
 
 
-@compiled
-def _holds(world: World, robot: int, condition: int) -> bool:
+@inlined
+def _where(world: World, robot: Robot, thing: int) -> tuple[int, int]:
+    """Where the robot knows the hub, a site, or food: the nearest in sight; among equals the first, row by row."""
+    if thing != FOOD:
+        return robot.known[thing, 0], robot.known[thing, 1]
+    nearest, at_row, at_column = world.sight + 1, UNKNOWN, UNKNOWN
+    for pile in range(world.filled[0]):
+        row, column = world.piles[pile, 0], world.piles[pile, 1]
+        distance = _distance(robot, row, column)
+        if distance < nearest or (distance == nearest and (row, column) < (at_row, at_column)):
+            nearest, at_row, at_column = distance, row, column
+    return at_row, at_column
+
+
+@inlined
+def _holds(world: World, robot: Robot, condition: int) -> bool:
     if condition >= VISITED_BEFORE:
-        return bool(world.known[robot, condition - VISITED_BEFORE, 0] != UNKNOWN)
+        return bool(robot.known[condition - VISITED_BEFORE, 0] != UNKNOWN)
     if condition >= DROPPABLE:
-        return bool(world.carrying[robot]) and _near(world, robot, condition - DROPPABLE, REACH)
+        return robot.carrying != 0 and _near(world, robot, condition - DROPPABLE, REACH)
     if condition == CARRYING:
-        return bool(world.carrying[robot])
+        return bool(robot.carrying != 0)
     return _near(world, robot, condition - NEIGHBOUR, world.sight)
 
 
-@compiled
-def _near(world: World, robot: int, thing: int, cells: int) -> bool:
+@inlined
+def _near(world: World, robot: Robot, thing: int, cells: int) -> bool:
     """Whether a thing of that kind, known or not, is at most so many cells away."""
-    place, middle = world.robots[robot], len(world.food) // 2
     if thing == HUB:
-        return _distance(place, middle, middle) <= cells
-    if thing == FOOD:
-        row, column = world.known[robot, FOOD]
-        return row != UNKNOWN and _distance(place, row, column) <= cells
-    for site in range(len(world.sites)):
-        if _distance(place, world.sites[site, 0], world.sites[site, 1]) <= cells:
-            return True
-    return False
+        return _distance(robot, len(world.food) // 2, len(world.food) // 2) <= cells
+    places, count = (world.sites, len(world.sites)) if thing == SITE else (world.piles, world.filled[0])
+    near = False
+    for place in range(count):
+        near = near or _distance(robot, places[place, 0], places[place, 1]) <= cells
+    return near
 
 
-@compiled
-def _pick_up(world: World, robot: int) -> int:
-    if world.carrying[robot] or not _near(world, robot, FOOD, REACH):
+@inlined
+def _pick_up(world: World, robot: Robot) -> int:
+    row, column = _where(world, robot, FOOD)
+    if robot.carrying != 0 or row == UNKNOWN or _distance(robot, row, column) > REACH:
         return FAILURE
-    row, column = world.known[robot, FOOD]
-    world.food[row, column] -= 1
-    world.carrying[robot] = True
+    _take_food(world, row, column)
+    robot.carrying = True
     return SUCCESS
 
 
-@compiled
-def _delivers(world: World, robot: int) -> bool:
-    return bool(world.carrying[robot]) and _near(world, robot, HUB, REACH)
-
-
-@compiled
-def _drop(world: World, robot: int) -> int:
+@inlined
+def _drop(world: World, robot: Robot) -> int:
     """What is dropped at the hub is stored there; elsewhere it lies on the ground."""
-    if not world.carrying[robot]:
+    if robot.carrying == 0:
         return FAILURE
-    if not _delivers(world, robot):
-        world.food[world.robots[robot, 0], world.robots[robot, 1]] += 1
-    world.carrying[robot] = False
+    robot.carrying = False
+    if not _near(world, robot, HUB, REACH):
+        _add_food(world, robot.row, robot.column, 1)
     return SUCCESS
 
 
-@compiled
-def _explore(world: World, robot: int, scenario: int, step: int) -> int:
+@inlined
+def _explore(world: World, robot: Robot, number: int, scenario: int, step: int) -> int:
     """Go straight on, now and then along a new direction; a wall turns the robot back."""
-    if uniform(scenario, step, 2 * robot) < TURNING:
-        world.heading[robot] = _direction(uniform(scenario, step, 2 * robot + 1))
-    for axis in range(2):
-        if not 0 <= world.robots[robot, axis] + world.heading[robot, axis] < len(world.food):
-            world.heading[robot, axis] *= -1
-        world.robots[robot, axis] += world.heading[robot, axis]
+    if robot.moved != 0:
+        return RUNNING
+    if uniform(scenario, step, 2 * number) < TURNING:
+        robot.down, robot.right = _direction(uniform(scenario, step, 2 * number + 1))
+    size = len(world.food)
+    if not 0 <= robot.row + robot.down < size:
+        robot.down = -robot.down
+    if not 0 <= robot.column + robot.right < size:
+        robot.right = -robot.right
+    _move(world, robot, robot.down, robot.right)
     return RUNNING
 
 
-@compiled
-def _go(world: World, robot: int, action: int, moved: bool) -> int:
+@inlined
+def _go(world: World, robot: Robot, action: int) -> int:
     """One cell towards a thing or away from it; fails when the robot does not know where one is, or is there."""
     away = action >= MOVE_AWAY
-    goal = world.known[robot, action - (MOVE_AWAY if away else MOVE_TOWARDS)]
-    there = not away and _distance(world.robots[robot], goal[0], goal[1]) == 0
-    if goal[0] == UNKNOWN or there:
+    row, column = _where(world, robot, action - (MOVE_AWAY if away else MOVE_TOWARDS))
+    if row == UNKNOWN or (not away and _distance(robot, row, column) == 0):
         return FAILURE
-    if not moved:
-        for axis in range(2):
-            step = np.sign(goal[axis] - world.robots[robot, axis]) * (-1 if away else 1)
-            world.robots[robot, axis] = min(max(world.robots[robot, axis] + step, 0), len(world.food) - 1)
+    sign = -1 if away else 1
+    _move(world, robot, sign * np.sign(row - robot.row), sign * np.sign(column - robot.column))
     return RUNNING
+
+
+@inlined
+def _move(world: World, robot: Robot, down: int, right: int) -> None:
+    """Move one cell, or stay at a wall; only once a tick."""
+    if robot.moved == 0:
+        robot.row = min(max(robot.row + down, 0), len(world.food) - 1)
+        robot.column = min(max(robot.column + right, 0), len(world.food) - 1)
+        robot.moved = True

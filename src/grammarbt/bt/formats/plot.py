@@ -18,6 +18,8 @@ except ImportError:
     raise FormatError("PNG and PDF need matplotlib", "pip install 'grammarbt[plots]', or convert to svg") from None
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.axes import Axes
 
 _POINTS_PER_INCH = 72
@@ -53,22 +55,30 @@ def _figure(tree: BehaviorTree) -> Figure:
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set(xlim=(0, drawing.width), ylim=(drawing.height, 0))
     axes.axis("off")
-    _draw(axes, drawing, scale)
+    draw_tree(axes, drawing, scale)
     return figure
 
 
-def _draw(axes: Axes, drawing: Drawing, scale: float) -> None:
-    for node in drawing.nodes:
+def draw_tree(axes: Axes, drawing: Drawing, scale: float, fills: Sequence[str] | None = None) -> None:
+    """Draw a tree into axes that count its pixels from the top left.
+
+    Args:
+        axes: where to draw.
+        drawing: the placed nodes.
+        scale: of letters and lines.
+        fills: the colour of each node; white unless given.
+    """
+    for node, fill in zip(drawing.nodes, fills or ["white"] * len(drawing.nodes), strict=True):
         if node.parent is not None:
             parent = drawing.nodes[node.parent]
             axes.plot((parent.x, node.x), (parent.y, node.y), color="black", linewidth=scale, zorder=0)
-        axes.add_patch(_patch(node, scale))
+        axes.add_patch(_patch(node, scale, fill))
         axes.text(node.x, node.y, node.text, ha="center", va="center", fontsize=11 * scale, parse_math=False)
 
 
-def _patch(placed: Placed, scale: float) -> Patch:
+def _patch(placed: Placed, scale: float, fill: str) -> Patch:
     x, y, half, width = placed.x, placed.y, HEIGHT / 2, placed.width
-    look: dict[str, Any] = {"facecolor": "white", "edgecolor": "black", "linewidth": scale}
+    look: dict[str, Any] = {"facecolor": fill, "edgecolor": "black", "linewidth": scale}
     if isinstance(placed.node, Condition):
         return Ellipse((x, y), width, HEIGHT, **look)
     if isinstance(placed.node, Not):

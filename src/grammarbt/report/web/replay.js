@@ -126,7 +126,7 @@
   function pause() {
     clearInterval(timer);
     timer = null;
-    find("play").textContent = "▶ Play";
+    find("play").textContent = "Play";
     find("now").setAttribute("aria-live", "polite");
   }
 
@@ -134,7 +134,7 @@
     if (now === last) show(0);
     clearInterval(timer);
     timer = setInterval(() => show(now + 1), 1000 / Number(find("speed").value));
-    find("play").textContent = "⏸ Pause";
+    find("play").textContent = "Pause";
     find("now").setAttribute("aria-live", "off"); // nobody can listen to sixty ticks a second
   }
 

@@ -1,4 +1,4 @@
-"""The edges out of a root tree: add or change a sub-tree of some block, move one, delete one."""
+"""The edges out of a list: add or change a sub-tree of some block, move one, delete one."""
 
 from __future__ import annotations
 
@@ -11,15 +11,24 @@ import numpy as np
 from attrs import define, field, frozen
 
 from grammarbt.grammar import Derivation
-from grammarbt.search import Arm, Bandit, BlockDag, BlockNode, ListedTree, Piece, RootList, Runner
+from grammarbt.search.bandits import Arm, Bandit
+from grammarbt.search.blocks import BlockNode, Piece, PieceSource
+from grammarbt.search.race import Runner
+from grammarbt.search.rootlist import RootList
+from grammarbt.search.space import Memory, Neighbour
+from grammarbt.search.trim import reached_positions
 
 INSERT = 0.85
 """Chance that adding inserts; else it replaces what stands there."""
-UNDO = 0.2
+UNDO = 0.25
 """Chance that changing undoes the last productions of the sub-tree and derives it again; else it draws a new one."""
 MOST_UNDONE = 6
-MOVE_CHANGED = 0.4
+MOVE_CHANGED = 0.7
 """Chance that a changed sub-tree also moves."""
+BLIND_EDGE = 0.5
+"""Chance that an edge is drawn by weight, though the bandit has its turn."""
+BORROWED = 0.25
+"""Chance that a sub-tree is one of an elite's, once there are elites."""
 FURTHER_EDGE = 0.15
 MOST_EDGES = 3
 ABSENT = 6.0
@@ -49,72 +58,78 @@ class Draft:
     path: list[BlockNode] = field(factory=list)
 
 
-@frozen(eq=False)
-class Neighbour:
-    """A tree one step from the root.
-
-    Attributes:
-        listed: the tree.
-        credited: what its advantage is credited to; empty for steps of several edges.
-    """
-
-    listed: ListedTree
-    credited: tuple[Arm, ...]
-
-
 def key_of(pieces: Sequence[Piece]) -> Key:
     """Tells lists of pieces apart."""
     return tuple(piece.word for piece in pieces)
 
 
-class Neighbourhood:
-    """Everything one step from a root.
+@frozen(eq=False)
+class ListParts:
+    """What neighbours of lists are made of.
 
-    `reached` is how many root positions ticks arrive at, `closed` what is not to be drawn again, `waiting` what lost once
-    and gets one more chance.
+    Attributes:
+        lists: puts sub-trees together.
+        sources: draw the sub-trees of each block.
+        bandit: chooses edges, and ways down in the sources; None chooses by weight.
+        trim: whether sub-trees are added only where ticks arrive.
+        known: per block, the sub-trees of the best lists so far.
+    """
+
+    lists: RootList
+    sources: Mapping[int, PieceSource]
+    bandit: Bandit | None
+    trim: bool
+    known: dict[int, list[Piece]] = field(factory=dict)
+
+
+class ListNeighbours:
+    """Everything one step from a root.
 
     Args:
         root: its pieces.
-        lists: puts pieces together.
-        blocks: the DAG of each block.
-        bandit: chooses edges and block nodes.
+        parts: what neighbours are made of.
         rng: randomness.
     """
 
-    def __init__(
-        self,
-        root: Sequence[Piece],
-        lists: RootList,
-        blocks: Mapping[int, BlockDag],
-        bandit: Bandit,
-        rng: np.random.Generator,
-    ) -> None:
+    def __init__(self, root: Sequence[Piece], parts: ListParts, rng: np.random.Generator) -> None:
         self.root = tuple(root)
-        self.reached = len(self.root) + 1
-        self.lists = lists
-        self.blocks = blocks
-        self.bandit = bandit
+        self.parts = parts
         self.rng = rng
+        self.reached = len(self.root) + 1
         self.arms = {edge: Arm() for edge in self._edges()}
-        self._shares = list(accumulate(self._weight(edge) for edge in self.arms))
-        self.closed = {key_of(self.root)}
-        self.waiting: dict[Key, Runner] = {}
+        self._order = list(self.arms)
+        self._shares = list(accumulate(self._weight(edge) for edge in self._order))
+        self.memory = Memory({key_of(self.root)})
+
+    def look(self, root: Runner) -> None:
+        """See how far along the list the root's ticks arrive."""
+        if self.parts.trim:
+            self.reached = reached_positions(root)
+
+    def credit(self, neighbour: Neighbour, advantage: float) -> None:
+        """Credit the edge and the way down."""
+        if self.parts.bandit is not None:
+            self.parts.bandit.observe(advantage)
+            for arm in neighbour.credited:
+                self.parts.bandit.credit(arm, advantage)
 
     def _edges(self) -> list[Edge]:
         present = [piece.block for piece in self.root]
-        adds = [Edge("add", block) for block in self.blocks if self._can_add(block)]
-        changes = [Edge("change", block) for block in self.blocks if block in present]
+        adds = [Edge("add", block) for block in self.parts.sources if self._can_add(block)]
+        changes = [Edge("change", block) for block in self.parts.sources if block in present]
         return [*adds, *changes, Edge("move"), Edge("delete")]
 
     def _can_add(self, block: int) -> bool:
         own = tuple(piece.block for piece in self.root)
-        return any(self.lists.allows((*own[:at], block, *own[at:])) for at in range(len(own) + 1))
+        return any(self.parts.lists.allows((*own[:at], block, *own[at:])) for at in range(len(own) + 1))
 
     def draw(self) -> Neighbour | None:
         """A tree that is not closed; None if none was found. The bandit goes first, then everything by weight."""
         for attempt in range(INFORMED_DRAWS + BLIND_DRAWS):
-            bandit = self.bandit if attempt < INFORMED_DRAWS else None
-            neighbour = self._step(self._urgent_edge() if bandit else self._edge_by_weight(), bandit)
+            bandit = self.parts.bandit if attempt < INFORMED_DRAWS else None
+            by_weight = bandit is None or self.rng.random() < BLIND_EDGE
+            edge = self._edge_by_weight() if by_weight or bandit is None else self._urgent_edge(bandit)
+            neighbour = self._step(edge, bandit)
             if neighbour is not None:
                 return neighbour
         return None
@@ -126,10 +141,11 @@ class Neighbourhood:
         while edges < MOST_EDGES and self.rng.random() < FURTHER_EDGE:
             self._take(self._edge_by_weight(), draft, None)
             edges += 1
-        listed = None if key_of(draft.pieces) in self.closed else self.lists.assemble(draft.pieces)
+        key = key_of(draft.pieces)
+        listed = None if key in self.memory.closed else self.parts.lists.assemble(draft.pieces)
         if listed is None:
             return None
-        return Neighbour(listed, (self.arms[edge], *draft.path) if edges == 1 else ())
+        return Neighbour(key, listed, (self.arms[edge], *draft.path) if edges == 1 else ())
 
     def _take(self, edge: Edge, draft: Draft, bandit: Bandit | None) -> None:
         if edge.kind == "add":
@@ -165,7 +181,10 @@ class Neighbourhood:
         draft.pieces.insert(self._position(draft), piece)
 
     def _draw_piece(self, block: int, prefix: Derivation, draft: Draft, bandit: Bandit | None) -> Piece:
-        path, piece = self.blocks[block].draw(self.rng, prefix, bandit)
+        known = () if prefix else self.parts.known.get(block, [])
+        if known and self.rng.random() < BORROWED:
+            return known[self._below(len(known))]
+        path, piece = self.parts.sources[block].draw(self.rng, prefix, bandit)
         draft.path.extend(path)
         return piece
 
@@ -173,23 +192,23 @@ class Neighbourhood:
         return self._below(min(draft.reached, len(draft.pieces) + 1))
 
     def _below(self, n: int) -> int:
-        return int(self.rng.integers(n))
+        return int(self.rng.random() * n)
 
-    def _urgent_edge(self) -> Edge:
+    def _urgent_edge(self, bandit: Bandit) -> Edge:
         """The edge with the highest index; untried ones first, at random."""
         untried = [edge for edge, arm in self.arms.items() if not arm.visits]
         if untried:
             return untried[self._below(len(untried))]
         trials = sum(arm.visits for arm in self.arms.values())
-        return max(self.arms, key=lambda edge: self.bandit.index(self.arms[edge], self.arms[edge].visits, trials))
+        return max(self.arms, key=lambda edge: bandit.index(self.arms[edge], self.arms[edge].visits, trials))
 
     def _edge_by_weight(self) -> Edge:
         drawn = float(self.rng.random()) * self._shares[-1]
-        return list(self.arms)[bisect_right(self._shares, drawn)]
+        return self._order[bisect_right(self._shares, drawn)]
 
     def _weight(self, edge: Edge) -> float:
         if edge.kind == "move":
             return MOVE_WEIGHT
         if edge.kind == "delete":
             return DELETE_WEIGHT
-        return self.blocks[edge.block].weight * (ABSENT if edge.kind == "add" else 1.0)
+        return self.parts.sources[edge.block].weight * (ABSENT if edge.kind == "add" else 1.0)

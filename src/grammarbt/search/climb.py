@@ -1,71 +1,94 @@
-"""DAG search re-rooted at the incumbent tree: its neighbours race it, and a winner becomes the next root.
+"""Climbing from an incumbent tree: its neighbours race it, and a winner becomes the next root.
 
-The value of a node is how much the trees below it gain over the root, scenario by scenario.
+The value of a neighbour is how much it gains over the root, scenario by scenario.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from attrs import define
+from attrs import define, field, frozen, validators
 
 from grammarbt.bt import BehaviorTree, format_tree
 from grammarbt.errors import SearcherError
-from grammarbt.search import (
-    Batches,
-    BlockDag,
-    HallOfFame,
-    ListedTree,
-    RootList,
-    Runner,
-    Scenarios,
-    SearchContext,
-    Width,
-    behaviour_of,
-    closes,
-    differences,
-    judge,
-    make_bandit,
-    next_stage,
-    reached_positions,
-    trimmed,
-)
-from grammarbt_dagmcts.neighbourhood import Key, Neighbour, Neighbourhood, key_of
-from grammarbt_dagmcts.parameters import DagMctsParameters
+from grammarbt.search.base import SearchContext
+from grammarbt.search.batches import Batches, Scenarios, Width
+from grammarbt.search.fame import HallOfFame
+from grammarbt.search.race import Runner, closes, differences, judge, next_stage
+from grammarbt.search.rootlist import ListedTree
+from grammarbt.search.space import Around, Neighbour, Space
 
 ELITES = 2
 ELITE_EVERY = 3
 """Every how many restarts the root is the best elite instead of a random tree."""
+LATE = 2
+"""From how many times the episodes without progress before the end every restart is from the best elite."""
+
+
+@frozen
+class ClimbParameters:
+    """When to race, how long, and when to restart."""
+
+    first_trees: int = field(
+        default=60,
+        validator=validators.ge(1),
+        metadata={"help": "random trees that the first root is chosen from"},
+    )
+    restart_trees: int = field(
+        default=30,
+        validator=validators.ge(1),
+        metadata={"help": "random trees that a later root is chosen from"},
+    )
+    restart_after: int = field(
+        default=500,
+        validator=validators.ge(1),
+        metadata={"help": "episodes without an accepted proposal before a restart"},
+    )
+    race_episodes: int = field(
+        default=96,
+        validator=validators.ge(1),
+        metadata={"help": "episodes of the longest race against the root"},
+    )
+    duel_episodes: int = field(
+        default=48,
+        validator=validators.ge(1),
+        metadata={"help": "common episodes on which the roots of past restarts are compared"},
+    )
+    round_episodes: int = field(
+        default=5_000,
+        validator=validators.ge(1),
+        metadata={"help": "where one episode tells a tree's worth: episodes of a round of annealing"},
+    )
 
 
 @define(eq=False)
 class Entrant:
     """A neighbour in its race against the root."""
 
-    key: Key
     neighbour: Neighbour
     runner: Runner
 
 
-class RerootedSearch:
-    """The default preset; begins from the context's start tree, if there is one."""
+class Climb:
+    """Roots, races and restarts; begins from the context's start tree, if there is one.
 
-    def __init__(self, context: SearchContext, parameters: DagMctsParameters, lists: RootList) -> None:
+    Args:
+        context: what to search.
+        parameters: when to do what.
+        space: the trees and their neighbours.
+    """
+
+    def __init__(self, context: SearchContext, parameters: ClimbParameters, space: Space) -> None:
         self.parameters = parameters
         self.rng = context.rng
-        self.lists = lists
-        behaviour = behaviour_of(context)
-        dags = [
-            BlockDag(context.grammar, block, behaviour, parameters.largest_block) for block in context.grammar.blocks
-        ]
-        self.blocks = {dag.block: dag for dag in dags if dag.words}
-        self.bandit = make_bandit(parameters.bandit, 0.4 if parameters.c is None else parameters.c, span=1.0)
+        self.budget = context.budget
+        self.space = space
         self.scenarios = Scenarios()
         self.duel_start = self.scenarios.fresh(parameters.duel_episodes)
         self.fame = HallOfFame()
         self.elites: list[Runner] = []
         self.root: Runner | None = None
-        self.start = self._recognised(context.start)
+        self.start = None if context.start is None else self._recognised(context.start)
         self.low, self.high = float("inf"), float("-inf")
         self.episodes = self.accepted = self.restarts = self.races = 0
 
@@ -78,16 +101,19 @@ class RerootedSearch:
         while True:
             root = yield from self._climb(root, width)
             yield from self._duel(root)
+            self.space.remember([elite.listed for elite in self.elites])
             self.restarts += 1
-            if self.restarts % ELITE_EVERY == 0 and self.elites:
+            if self.elites and (self.restarts % ELITE_EVERY == 0 or self._late()):
                 root = self._as_root(self.elites[0])
             else:
                 root = yield from self._random_root(self.parameters.restart_trees, width)
 
-    def _recognised(self, tree: BehaviorTree | None) -> ListedTree | None:
-        if tree is None:
-            return None
-        listed = self.lists.recognise(tree, self.parameters.largest_block)
+    def _late(self) -> bool:
+        """Whether too little of the budget is left to climb from a random tree."""
+        return self.budget - self.episodes < LATE * self.parameters.restart_after
+
+    def _recognised(self, tree: BehaviorTree) -> ListedTree:
+        listed = self.space.recognised(tree)
         if listed is None:
             message = f"the search cannot begin from {format_tree(tree)}, which is not in the language"
             raise SearcherError(message, "give a tree that the grammar derives, or none")
@@ -98,7 +124,7 @@ class RerootedSearch:
         scenario = self.scenarios.fresh(1)
         tried: list[Runner] = []
         while len(tried) < n:
-            runners = [Runner(self.lists.sample(self.rng), scenario) for _ in range(min(n - len(tried), width()))]
+            runners = [Runner(self.space.sample(self.rng), scenario) for _ in range(min(n - len(tried), width()))]
             yield from self._simulate([(runner, 1) for runner in runners])
             for runner in runners:
                 self.fame.add(runner.listed.tree, runner.returns)
@@ -116,11 +142,10 @@ class RerootedSearch:
         since = self.episodes
         neighbourhood = self._around(root)
         while self.episodes - since < self.parameters.restart_after and not root.failed:
-            if self.parameters.trim:
-                shorter = trimmed(root, self.lists)
-                if shorter is not root:
-                    root, neighbourhood = shorter, self._around(shorter)
-                neighbourhood.reached = reached_positions(root)
+            shorter = self.space.trimmed(root)
+            if shorter is not root:
+                root, neighbourhood = shorter, self._around(shorter)
+            neighbourhood.look(root)
             self.root = root
             entrants = self._entrants(neighbourhood, root, width())
             if not entrants:
@@ -133,23 +158,22 @@ class RerootedSearch:
                 neighbourhood = self._around(root)
         return root
 
-    def _around(self, root: Runner) -> Neighbourhood:
-        return Neighbourhood(root.listed.pieces, self.lists, self.blocks, self.bandit, self.rng)
+    def _around(self, root: Runner) -> Around:
+        return self.space.around(root.listed, self.rng)
 
-    def _entrants(self, neighbourhood: Neighbourhood, root: Runner, n: int) -> list[Entrant]:
+    def _entrants(self, neighbourhood: Around, root: Runner, n: int) -> list[Entrant]:
         found = []
         for _ in range(n):
             neighbour = neighbourhood.draw()
             if neighbour is None:
                 break
-            key = key_of(neighbour.listed.pieces)
-            neighbourhood.closed.add(key)  # so that nobody runs twice at a time
-            runner = neighbourhood.waiting.get(key) or Runner(neighbour.listed, root.start)
-            found.append(Entrant(key, neighbour, runner))
+            neighbourhood.memory.closed.add(neighbour.key)  # so that nobody runs twice at a time
+            runner = neighbourhood.memory.waiting.get(neighbour.key) or Runner(neighbour.listed, root.start)
+            found.append(Entrant(neighbour, runner))
         self.races += len(found)
         return found
 
-    def _race(self, root: Runner, entrants: list[Entrant], neighbourhood: Neighbourhood) -> Batches[Runner | None]:
+    def _race(self, root: Runner, entrants: list[Entrant], neighbourhood: Around) -> Batches[Runner | None]:
         """Run until an entrant wins, or all have lost."""
         last = self.parameters.race_episodes
         while entrants:
@@ -165,7 +189,7 @@ class RerootedSearch:
                 if verdict == "go on":
                     running.append(entrant)
                     continue
-                self._credit(entrant, root)
+                self._credit(entrant, root, neighbourhood)
                 if verdict == "accept":
                     winners.append(entrant.runner)
                 else:
@@ -180,22 +204,20 @@ class RerootedSearch:
             return "reject"
         return judge(differences(entrant.runner, root), self.parameters.race_episodes)
 
-    def _credit(self, entrant: Entrant, root: Runner) -> None:
-        """The mean gain over the root, in halves of the range of returns, to the edge and the block nodes."""
+    def _credit(self, entrant: Entrant, root: Runner, neighbourhood: Around) -> None:
+        """The mean gain over the root, in halves of the range of returns."""
         gains = differences(entrant.runner, root)
         scale = (self.high - self.low) / 2.0 or 1.0
         reward = max(-1.0, min(1.0, sum(gains) / len(gains) / scale)) if gains else -1.0
-        self.bandit.observe(reward)
-        for arm in entrant.neighbour.credited:
-            self.bandit.credit(arm, reward)
+        neighbourhood.credit(entrant.neighbour, reward)
 
-    def _dismiss(self, entrant: Entrant, root: Runner, neighbourhood: Neighbourhood) -> None:
+    def _dismiss(self, entrant: Entrant, root: Runner, neighbourhood: Around) -> None:
         """Close a neighbour that lost, unless it is worth one more chance."""
         gains = differences(entrant.runner, root)
-        second = neighbourhood.waiting.pop(entrant.key, None) is not None
+        second = neighbourhood.memory.waiting.pop(entrant.neighbour.key, None) is not None
         if not (second or entrant.runner.failed or closes(gains, self.parameters.race_episodes)):
-            neighbourhood.waiting[entrant.key] = entrant.runner
-            neighbourhood.closed.discard(entrant.key)
+            neighbourhood.memory.waiting[entrant.neighbour.key] = entrant.runner
+            neighbourhood.memory.closed.discard(entrant.neighbour.key)
 
     def _duel(self, root: Runner) -> Batches[None]:
         """Compare the root with the elites on scenarios common to all duels, and keep the best."""
@@ -227,10 +249,9 @@ class RerootedSearch:
         return self.fame.best(n)
 
     def metrics(self) -> Mapping[str, float]:
-        """Size of the block DAGs, and how the races went."""
+        """Partial trees met, and how the races went."""
         return {
-            "nodes": sum(len(dag.nodes) for dag in self.blocks.values()),
-            "words": sum(dag.words for dag in self.blocks.values()),
+            "nodes": self.space.nodes,
             "races": self.races,
             "accepted": self.accepted,
             "restarts": self.restarts,

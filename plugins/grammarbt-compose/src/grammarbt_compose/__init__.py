@@ -1,0 +1,1 @@
+"""Composing trees from sub-trees."""

@@ -1,0 +1,38 @@
+"""The documentation builds without a warning, and its links lead somewhere."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SKIPPED = {"_build", ".venv", ".nox", "node_modules", "runs", "templates"}
+PAGES = sorted(
+    path
+    for path in ROOT.rglob("*.md")
+    if not SKIPPED & set(path.relative_to(ROOT).parts) and not any(part.startswith(".") for part in path.parts[1:])
+)
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+
+
+def test_sphinx_has_nothing_to_say(tmp_path):
+    """Warnings include pages that no table of contents names, and links to pages and headings that are not there."""
+    command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-d", str(tmp_path / "doctrees")]
+    built = subprocess.run(
+        [*command, str(ROOT / "docs"), str(tmp_path / "html")], check=False, capture_output=True, text=True
+    )
+    assert (built.returncode, built.stderr) == (0, "")
+    assert (tmp_path / "html/index.html").exists()
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_links_lead_to_files(page):
+    links = [link.partition("#")[0] for link in LINK.findall(page.read_text(encoding="utf-8"))]
+    local = [link for link in links if link and "://" not in link and not link.startswith("mailto:")]
+    assert [link for link in local if not (page.parent / link).exists()] == []
+
+
+def test_what_is_built_is_ignored():
+    assert "docs/_build" in (ROOT / ".gitignore").read_text(encoding="utf-8")

@@ -1,0 +1,69 @@
+"""Generations get better, and look at nothing twice."""
+
+import numpy as np
+import pytest
+
+from grammarbt.bt import leaves
+from grammarbt.search import BatchSearcher, Evaluation, Evolution, EvolutionParameters, Moves, Scorer
+
+
+class Lists:
+    """Derivations that change by one move."""
+
+    def __init__(self, moves, rng):
+        self.moves, self.rng = moves, rng
+
+    def first(self, n):
+        return [self.stranger() for _ in range(n)]
+
+    def stranger(self):
+        return self.moves.grammar.sample(self.rng)
+
+    def child(self, one, other):
+        return self.moves.regenerate(self.moves.tree(one), self.rng) or other
+
+    def derivation(self, genome):
+        return genome
+
+
+@pytest.fixture
+def evolve(grammars):
+    def run(name, episodes, **parameters):
+        rng = np.random.default_rng(0)
+        moves = Moves(grammars[name])
+        evolution = Evolution(Lists(moves, rng), Scorer(moves.states), EvolutionParameters(**parameters), 1_000, rng)
+        searcher, trees = BatchSearcher("lists", evolution), []
+        while len(trees) < episodes and (asked := searcher.ask(16)):
+            trees += [proposal.tree for proposal in asked]
+            searcher.tell([answer(proposal) for proposal in asked])
+        return searcher, trees
+
+    return run
+
+
+def answer(proposal):
+    value = sum(leaf.name == "a" for leaf in leaves(proposal.tree)) - 0.01 * len(str(proposal.tree))
+    return Evaluation(proposal, (value,) * (proposal.stop - proposal.start))
+
+
+def test_the_best_list_is_found(evolve):
+    searcher, _ = evolve("lists", 1_500)
+    assert {leaf.name for leaf in leaves(searcher.candidates(1)[0])} == {"a"}
+
+
+def test_no_derivation_is_simulated_twice_where_that_shows_nothing_new(evolve):
+    searcher, trees = evolve("lists", 1_500)
+    assert len(set(trees)) > 0.95 * len(trees)
+    assert searcher.metrics()["generations"] > 10
+
+
+def test_it_ends_when_nothing_new_is_found(evolve):
+    _, trees = evolve("unique", 5_000, population=20)
+    assert 200 < len(set(trees)) <= 325
+    assert len(trees) < 5_000
+
+
+def test_the_population_grows_with_the_budget_unless_it_is_given():
+    sizes = [EvolutionParameters().size(budget) for budget in (100, 4_000, 10**6)]
+    assert sizes == [50, 100, 500]
+    assert EvolutionParameters(population=7).size(10**6) == 7

@@ -34,9 +34,7 @@ def main() -> None:
     arguments = parser.parse_args()
     domain = Registry(PluginHost(PluginOptions(), lambda _: None)).make_domain(arguments.domain, {})
     tree = parse(domain.references[0].tree)
-    here, there = (
-        returns(domain, tree, start, arguments.scenarios) for start in (0, arguments.scenarios)
-    )
+    here, there = (returns(domain, tree, start, arguments.scenarios) for start in (0, arguments.scenarios))
     print("exchange  sd of a return  sd, same worlds  sd, other worlds  episodes saved")
     factors = []
     for number, other in enumerate(exchanges(tree), 1):

@@ -12,14 +12,15 @@ from pathlib import Path
 
 import click
 
+from grammarbt import errors
 from grammarbt.cli.app import VERBS, application
 from grammarbt.plugins import PluginHost, PluginOptions, Registry, hookspecs, specs
 from grammarbt.plugins.parameters import Parameter, describe
 
 PACKAGES = ("bt", "domain", "grammar", "plugins", "search", "testing")
+KINDS = ("searchers", "domains", "executors", "grammars", "formats")
 REFERENCE = Path(__file__).parent / "reference"
 EVENTS = "grammarbt.plugins.events"
-FIRST_OBSERVER = "grammarbt_run_started"
 
 
 def pages() -> dict[str, str]:
@@ -91,16 +92,17 @@ def _components() -> Iterator[str]:
     yield "What the core and the plugins of this repository bring. `grammarbt plugins NAME` prints the same."
     yield ""
     registry = Registry(PluginHost(PluginOptions(), lambda _: None))
-    for kind in ("searchers", "domains", "executors"):
+    for kind in KINDS:
         yield f"## {kind.capitalize()}"
         yield ""
-        found = [spec for plugin in registry.host.plugins for spec in plugin.provides[kind]]
-        for spec in sorted(found, key=lambda spec: spec.name):
+        found = [(spec, plugin) for plugin in registry.host.plugins for spec in plugin.provides[kind]]
+        for spec, plugin in sorted(found, key=lambda pair: pair[0].name):
             yield f"### `{spec.name}`"
             yield ""
-            yield spec.help
+            yield f"{spec.help or '–'} *{plugin.distribution}*"
             yield ""
-            yield from _parameters(kind.removesuffix("s"), describe(registry.parameters_of(spec)))  # type: ignore[arg-type]  # kinds with parameters
+            if isinstance(spec, specs.SearcherSpec | specs.DomainSpec | specs.ExecutorSpec):
+                yield from _parameters(kind.removesuffix("s"), describe(registry.parameters_of(spec)))
 
 
 def _parameters(part: str, parameters: tuple[Parameter, ...]) -> Iterator[str]:
@@ -128,6 +130,14 @@ def _api() -> Iterator[str]:
         for name in sorted(module.__all__):
             yield f"- `{name}`{_summary(getattr(module, name))}"
         yield ""
+    yield "## `grammarbt.errors`"
+    yield ""
+    yield "Every error of the project is a `GrammarBTError`, with a `message` and a `hint`."
+    yield ""
+    for name, thing in vars(errors).items():
+        if inspect.isclass(thing) and thing.__module__ == errors.__name__:
+            yield f"- `{name}`{_summary(thing)}"
+    yield ""
 
 
 def _summary(thing: object) -> str:

@@ -2,34 +2,39 @@
 
     python tests/docs/pages.py docs/tutorials/grammar.md      # brings what commands print up to date
 
-On a page, a `{code-block}` with a `:caption:` is a file of that name, and in a `console` block each line that begins with
-`$` is a command, with what it prints below. There `…` stands for anything: a line of its own for any number of lines,
-inside a line for any text. Warnings and progress are not shown on pages; the message of a mistake is.
+A block that begins with ```python robot.py is the file robot.py, and ```python robot.py (at the end) goes to its end. In a
+`console` block each line that begins with `$` is a command, with what it prints below. There `…` stands for anything: a
+line of its own for any number of lines, inside a line for any text. Warnings and progress are not shown on pages; the
+message of a mistake is.
 """
 
 import contextlib
 import io
 import os
 import re
+import runpy
 import shlex
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import cast
 
 from attrs import define, frozen
 
 from grammarbt.cli import main
 
 ROOT = Path(__file__).parents[2]
+PROGRAMS = ("grammarbt", "python", "ls", "cat")
+"""What pages may type besides pip, which is never called: it would change the environment that the tests run in."""
+
 ANSWERS = (0, 1)  # exit codes of commands that went well: 1 where a verb answers no
 
-_FENCE = re.compile(
-    r"^(?P<fence>```+)(?P<head>[^`\n]*)\n(?::caption: (?P<name>\S+)\n\n)?(?P<text>.*?)^(?P=fence)$", re.M | re.S
-)
-_COMMAND = re.compile(r"^\$ (?P<line>.*(?:\\\n> .*)*)\n(?P<said>(?:(?!\$ ).*\n)*)", re.M)
-_DURATION = re.compile(r"\b\d[\d.,]* s$", re.M)
+_FENCE = re.compile(r"^(?P<fence>```+)(?P<language>\w*) ?(?P<name>.*)\n(?P<text>(?:.*\n)*?)(?P=fence)$", re.MULTILINE)
+_AT_THE_END = " (at the end)"
+_COMMAND = re.compile(r"^\$ (?P<line>.*(?:\\\n> .*)*)\n(?P<said>(?:(?!\$ ).*\n)*)", re.MULTILINE)
+_DURATION = re.compile(r"\b\d[\d.,]* s$", re.MULTILINE)
 
 
 @frozen
@@ -37,15 +42,14 @@ class Block:
     """A code block: its language, the file that it is if any, and its text."""
 
     language: str
-    name: str | None
+    name: str
     text: str
 
 
 def blocks(markdown: str) -> Iterator[Block]:
     """Every code block, in order."""
     for found in _FENCE.finditer(markdown):
-        language = found["head"].replace("{code-block}", "").strip()
-        yield Block(language, found["name"], found["text"])
+        yield Block(found["language"], found["name"], found["text"])
 
 
 def commands(block: Block) -> Iterator[tuple[str, str]]:
@@ -61,10 +65,12 @@ class Terminal:
     Attributes:
         folder: where.
         code: the last command's exit code.
+        site: where what they install goes, once they have.
     """
 
     folder: Path
     code: int = 0
+    site: Path | None = None
 
     def __attrs_post_init__(self) -> None:
         """The folder has what commands on pages name."""
@@ -74,8 +80,8 @@ class Terminal:
     def play(self, markdown: str) -> Iterator[tuple[str, str, str]]:
         """Write the files of a page and run its commands, in order; yields command, what the page says, what it printed."""
         for block in blocks(markdown):
-            if block.name is not None:
-                (self.folder / block.name).write_text(block.text, encoding="utf-8")
+            if block.name:
+                self._write(block)
             elif block.language == "console":
                 for line, said in commands(block):
                     yield line, said, self.type(line)
@@ -84,22 +90,40 @@ class Terminal:
         """What a command prints."""
         if line == "echo $?":
             return f"{self.code}\n"
-        shown, aside = self._own(line) if line.startswith("grammarbt ") else self._other(line)
+        if line.startswith("pip install "):
+            return self._install(line)
+        program = line.partition(" ")[0]
+        if program not in PROGRAMS:
+            raise ValueError(f"pages type {PROGRAMS} only, not {program!r}")
+        here = program == "grammarbt" and self.site is None
+        shown, aside = self._own(line) if here else self._other(line)
         return shown if self.code in ANSWERS else shown + aside
+
+    def _write(self, block: Block) -> None:
+        path = self.folder / block.name.removesuffix(_AT_THE_END)
+        with path.open("a" if block.name.endswith(_AT_THE_END) else "w", encoding="utf-8") as file:
+            file.write(block.text)
+
+    def _install(self, line: str) -> str:
+        """As pip does it, without asking an index for what is there already."""
+        self.site = self.folder / "site"
+        given = shlex.split(line)[-1].partition("[")[0]
+        runpy.run_path(str(ROOT / "tests/cli/test_new.py"))["install"](self.folder / given, self.site)
+        return ""
 
     def _own(self, line: str) -> tuple[str, str]:
         """In this process, as that spares importing everything anew."""
-        shown, aside = io.StringIO(), io.StringIO()
+        shown, aside = (io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2))
         with contextlib.chdir(self.folder), contextlib.redirect_stdout(shown), contextlib.redirect_stderr(aside):
-            self.code = main(shlex.split(line)[1:])
-        return shown.getvalue(), aside.getvalue()
+            self.code = main([name for word in shlex.split(line)[1:] for name in _expanded(word)])
+        return _written(shown), _written(aside)
 
     def _other(self, line: str) -> tuple[str, str]:
         path = os.pathsep.join((str(Path(sys.executable).parent), os.environ["PATH"]))
         done = subprocess.run(
             ["bash", "-c", line],  # noqa: S607 - the reader's own
             cwd=self.folder,
-            env=os.environ | {"PATH": path},
+            env=os.environ | {"PATH": path, "PYTHONPATH": str(self.site or "")},
             check=False,
             capture_output=True,
             text=True,
@@ -108,10 +132,19 @@ class Terminal:
         return done.stdout, done.stderr
 
 
+def _expanded(word: str) -> list[str]:
+    """As a shell does it; only `*`, for trees in notation hold the other signs."""
+    return sorted(map(str, Path().glob(word))) if "*" in word else [word]
+
+
+def _written(stream: io.TextIOWrapper) -> str:
+    return cast("io.BytesIO", stream.buffer).getvalue().decode()
+
+
 def agrees(said: str, printed: str) -> bool:
     """Whether a page says what was printed."""
     pattern = re.escape(said)
-    pattern = re.sub(r"^…\n", r"(?:.*\\n)*?", pattern.replace("\\\n", "\n"), flags=re.M)
+    pattern = re.sub(r"^…\n", r"(?:.*\\n)*?", pattern.replace("\\\n", "\n"), flags=re.MULTILINE)
     return re.fullmatch(pattern.replace("…", ".*"), printed) is not None
 
 

@@ -8,7 +8,7 @@ ROOMS = 6
 
 class Rooms(TickDomain):
     vocabulary = Vocabulary((Group("clean", (ActionType("sweep"), ActionType("move")), (ConditionType("dirty"),)),))
-    grammar = "scheide"
+    grammar = "general"
     references = (Reference("manual", "?( →( (dirty) [sweep] ) [move] )"),)
     box = (0.0, 0.0, float(ROOMS), 2.0)
     unit = "rooms"

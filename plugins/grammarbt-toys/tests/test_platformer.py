@@ -65,7 +65,7 @@ def test_a_jump_over_a_gap_as_drawn():
 
 def test_a_walk_into_a_gap_ends_there():
     game = PlainGame("__ __", steps=10)
-    assert len(list(play(game, parse("[right]")))) == 2
+    assert len(list(play(game, parse("[right]")))) == 3
     assert (game.farthest, game.alive, drawn(game)[4]) == (2, False, "##X##")
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from functools import wraps
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import click
 
@@ -10,18 +12,37 @@ from grammarbt.cli.app import open_registry
 from grammarbt.cli.failures import SUCCESS
 from grammarbt.cli.grammar_check import command as check
 from grammarbt.cli.output import emit_json, table
+from grammarbt.run.spec import settings_of
 
 if TYPE_CHECKING:
     from grammarbt.grammar import BoundGrammar, Count, Derivation, Likely, NotInLanguageError
     from grammarbt.plugins import Registry
+
+Answer = TypeVar("Answer")
 
 NOT_IN_LANGUAGE = 1
 """Exit status of `grammar parse` when the tree is not in the language."""
 
 BATCH = 1_000
 
-_domain = click.option("--domain", required=True, metavar="NAME|FILE.py:NAME", help="Whose leaves to use.")
-_as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+
+class DomainOptions(NamedTuple):
+    """Whose leaves a verb uses: a domain's name, and its settings as typed."""
+
+    name: str
+    settings: tuple[str, ...]
+
+
+def _domain(verb: Callable[..., Answer]) -> Callable[..., Answer]:
+    """Add the options of a domain to a verb, which gets them as one argument."""
+
+    @click.option("--domain", required=True, metavar="NAME|FILE.py:NAME", help="Whose leaves to use.")
+    @click.option("--set", "settings", multiple=True, metavar="domain.KEY=VALUE", help="A parameter of it; repeatable.")
+    @wraps(verb)
+    def with_domain(domain: DomainOptions, **others: object) -> Answer:
+        return verb(domain=DomainOptions(domain, settings), **others)
+
+    return with_domain
 
 
 @click.group("grammar", context_settings={"help_option_names": ["-h", "--help"]})
@@ -39,7 +60,7 @@ command.add_command(check)
 @click.argument("file")
 @_domain
 @_as_json
-def count(file: str, domain: str, as_json: bool) -> None:
+def count(file: str, domain: DomainOptions, as_json: bool) -> None:
     """Count derivations, distinct trees and distinct behaviours of FILE, exactly.
 
     Behaviours are counted where there are at most 200,000 trees, as that takes listing them; derivations and trees
@@ -70,7 +91,7 @@ def count(file: str, domain: str, as_json: bool) -> None:
     show_default=True,
     help="What is equally likely; `choices` goes by the weights of the alternatives and is for any language.",
 )
-def sample(file: str, domain: str, number: int, seed: int, uniform: Likely) -> None:
+def sample(file: str, domain: DomainOptions, number: int, seed: int, uniform: Likely) -> None:
     """Print random trees of FILE, one a line."""
     import numpy as np  # noqa: PLC0415 - only this verb needs it
 
@@ -89,7 +110,7 @@ def sample(file: str, domain: str, number: int, seed: int, uniform: Likely) -> N
 @click.argument("tree")
 @_domain
 @_as_json
-def parse(file: str, tree: str, domain: str, as_json: bool) -> int:
+def parse(file: str, tree: str, domain: DomainOptions, as_json: bool) -> int:
     """Say how FILE derives TREE, or where TREE leaves the language; exits with 1 if it does."""
     from grammarbt.grammar import NotInLanguageError, parse_tree  # noqa: PLC0415 - brings lark
     from grammarbt.run.trees import load_tree  # noqa: PLC0415
@@ -105,10 +126,11 @@ def parse(file: str, tree: str, domain: str, as_json: bool) -> int:
     return SUCCESS
 
 
-def _bound(file: str, domain: str, registry: Registry) -> BoundGrammar:
+def _bound(file: str, domain: DomainOptions, registry: Registry) -> BoundGrammar:
     from grammarbt.grammar import bind, load_grammar  # noqa: PLC0415 - brings lark, which `--help` does not need
 
-    return bind(load_grammar(registry.find_grammar(file)), registry.make_domain(domain, {}).vocabulary)
+    settings = settings_of(domain.settings, ("domain",)).get("domain", {})
+    return bind(load_grammar(registry.find_grammar(file)), registry.make_domain(domain.name, settings).vocabulary)
 
 
 def _count_json(size: Count) -> dict[str, int | None]:

@@ -10,6 +10,7 @@ from grammarbt.cli.app import open_registry
 from grammarbt.cli.failures import SUCCESS, USER_MISTAKE
 from grammarbt.cli.output import emit_json, table
 from grammarbt.errors import GrammarError
+from grammarbt.run.spec import settings_of
 
 if TYPE_CHECKING:
     from grammarbt.grammar import BoundGrammar
@@ -19,8 +20,11 @@ if TYPE_CHECKING:
 @click.command("check")
 @click.argument("file")
 @click.option("--domain", metavar="NAME|FILE.py:NAME", help="Whose leaves to bind to; made-up ones unless given.")
+@click.option(
+    "--set", "settings", multiple=True, metavar="domain.KEY=VALUE", help="A parameter of the domain; repeatable."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-def command(file: str, domain: str | None, as_json: bool) -> int:
+def command(file: str, domain: str | None, settings: tuple[str, ...], as_json: bool) -> int:
     """Check the grammar FILE, or a shipped one by its name.
 
     Reports all findings at once; exits with 2 if one is an error. With a domain it also says which groups and leaves
@@ -29,7 +33,11 @@ def command(file: str, domain: str | None, as_json: bool) -> int:
     from grammarbt.grammar.check import check_source  # noqa: PLC0415 - brings lark, which `--help` does not need
 
     registry = open_registry()
-    vocabulary = registry.make_domain(domain, {}).vocabulary if domain else None
+    vocabulary = (
+        registry.make_domain(domain, settings_of(settings, ("domain",)).get("domain", {})).vocabulary
+        if domain
+        else None
+    )
     report = check_source(registry.find_grammar(file), vocabulary, _words)
     if as_json:
         emit_json(report.as_json())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import hypot
 from pathlib import Path
 
 import attrs
@@ -88,7 +89,9 @@ def _summary(result: Result) -> str:
     if result.reference:
         other = result.reference
         rows.append(("reference", f"{other.value:.5g} ± {other.stderr:.2g} ({other.name}, same worlds)"))
-    if result.ratio is not None:
+        gain, error = result.value - other.value, hypot(result.stderr, other.stderr)
+        rows.append(("gain", f"{gain:+.4g} ± {error:.2g}"))
+    if result.ratio is not None and result.reference and result.reference.value > 0.0:  # else more is not better
         rows.append(("ratio", f"{result.ratio:.3f}"))
     if result.complete is not None:
         rows.append(("complete", "every group that matters works" if result.complete else "some group does not work"))

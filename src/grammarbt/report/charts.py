@@ -75,7 +75,9 @@ class Chart:
             element("figcaption", self.title),
             self._picture(),
             element("ul", *legend, class_="legend"),
-            details("The figures as a table", table(self.title, ("", self.x_name, self.y_name, "95 % interval"), rows)),
+            details(
+                "The figures as a table", table(self.title, ("Line", self.x_name, self.y_name, "95 % interval"), rows)
+            ),
         )
 
     def _picture(self) -> Markup:

@@ -58,8 +58,8 @@ def details(summary: str, *content: Content) -> Markup:
 
 
 def scrolling(label: str, content: Content) -> Markup:
-    """A region for what may be wider than the page; it can be scrolled with the keyboard."""
-    return element("div", content, class_="scroll", role="region", aria_label=label, tabindex="0")
+    """A frame for what may be wider than the page; it can be scrolled with the keyboard."""
+    return element("div", content, class_="scroll", role="group", aria_label=label, tabindex="0")
 
 
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[Content]]) -> Markup:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from grammarbt.bt import Action, BehaviorTree, Condition, children, format_leaf, format_tree, numbered, parse
 from grammarbt.bt.formats import svg
+from grammarbt.bt.layout import lay_out
 from grammarbt.bt.notation import operator
 from grammarbt.report.markup import Content, Markup, details, element, joined, scrolling, table
 from grammarbt.report.thinning import thinned
@@ -18,11 +19,15 @@ if TYPE_CHECKING:
 
 _MOST_CHANGES = 40
 _PERCENT = 100
+_SMALLEST = 0.7
+"""What wide drawings shrink to at most, so that they stay readable; wider ones scroll."""
 
 
 def drawn(caption: str, notation: str) -> Markup:
     """A tree with its caption, and the notation to copy."""
-    picture = Markup(svg.dumps(parse(notation)).replace("<svg ", '<svg role="img" ', 1))
+    tree = parse(notation)
+    look = f'<svg role="img" style="min-width:{_SMALLEST * lay_out(tree).width:.0f}px" '
+    picture = Markup(svg.dumps(tree).replace("<svg ", look, 1))
     text = details("In one line", element("pre", element("code", notation), tabindex="0"))
     return element("figure", element("figcaption", caption), scrolling(caption, picture), text, class_="tree")
 

@@ -21,8 +21,11 @@ from grammarbt.search.moves import pick
 
 FIRST_TREES = 50
 ELITES = 5
-FROM_ELITE = 2 / 3
-"""Chance that a round begins from an elite rather than from the best of some random trees."""
+SHARE_OF_ROUND = 0.2
+"""Share of the budget that a round takes, where its length is not given."""
+FEWEST_IN_ROUND = 2_500
+FROM_ELITE = 1 / 2
+"""Chance that another round begins from an elite rather than from the best of some random trees."""
 LOSSES = 200
 """The first losses, which temperatures are scaled to."""
 SMALL_LOSS, LARGE_LOSS = 0.05, 0.9
@@ -33,6 +36,8 @@ HOTTEST = 1 / 8
 """The first temperature at most, in large losses."""
 COOLING = 1 / 4
 """The last temperature at most, in first ones."""
+COOL_ROUND = 1 / 16
+"""How much cooler every other round is, which begins from an elite."""
 IDLE = 6
 """Draws per episode of a round after which it ends, though most were known."""
 
@@ -52,16 +57,17 @@ class AnnealedSearch:
     Args:
         context: what to search.
         edits: of the grammar.
-        round_episodes: episodes of a round.
+        round_episodes: episodes of a round; None for what suits the budget.
         start: the derivation that the first round begins from, if any.
     """
 
     def __init__(
-        self, context: SearchContext, edits: Edits, round_episodes: int, start: Derivation | None = None
+        self, context: SearchContext, edits: Edits, round_episodes: int | None, start: Derivation | None = None
     ) -> None:
         self.rng = context.rng
         self.edits = edits
-        self.round_episodes = min(round_episodes, max(context.budget, 1))
+        own = max(FEWEST_IN_ROUND, round(context.budget * SHARE_OF_ROUND))
+        self.round_episodes = min(round_episodes or own, max(context.budget, 1))
         self.start = start
         self.values: dict[Derivation, float] = {}
         self.fame = HallOfFame()
@@ -72,19 +78,20 @@ class AnnealedSearch:
 
     def round(self, width: Width) -> Batches[Place]:
         """One cooling; gives the best place that it came to."""
-        first = yield from self._first(width)
-        best = yield from self._anneal(first, width)
+        cool = self.rounds % 2 == 1
+        first = yield from self._first(width, from_elite=cool)
+        best = yield from self._anneal(first, COOL_ROUND if cool else 1.0, width)
         best = yield from self._polish(best)
         self.rounds += 1
         self.elites = sorted([*self.elites, best], key=lambda place: -place.value)[:ELITES]
         return best
 
-    def _first(self, width: Width) -> Batches[Place]:
+    def _first(self, width: Width, *, from_elite: bool) -> Batches[Place]:
         if self.start is not None:
             derivation, self.start = self.start, None
             values = yield from self._values([derivation])
             return self._place(derivation, values[0])
-        if self.elites and self.rng.random() < FROM_ELITE:
+        if self.elites and (from_elite or self.rng.random() < FROM_ELITE):
             return pick(self.elites, self.rng)
         drawn: list[Derivation] = []
         returns: list[float] = []
@@ -98,7 +105,7 @@ class AnnealedSearch:
     def _place(self, derivation: Derivation, value: float) -> Place:
         return Place(derivation, self.edits.site(derivation), value)
 
-    def _anneal(self, first: Place, width: Width) -> Batches[Place]:
+    def _anneal(self, first: Place, scale: float, width: Width) -> Batches[Place]:
         """Cool down once; gives the best place seen."""
         here = best = first
         spent = drawn = 0
@@ -110,7 +117,7 @@ class AnnealedSearch:
             before = len(self.values)
             values = yield from self._values(derivations)
             spent += len(self.values) - before
-            temperature = self._temperature(min(1.0, spent / self.round_episodes))
+            temperature = scale * self._temperature(min(1.0, spent / self.round_episodes))
             for derivation, value in zip(derivations, values, strict=True):
                 if self._accepts(value - here.value, temperature):
                     here = self._place(derivation, value)

@@ -54,10 +54,13 @@ class ClimbParameters:
         validator=validators.ge(1),
         metadata={"help": "common episodes on which the roots of past restarts are compared"},
     )
-    round_episodes: int = field(
-        default=5_000,
-        validator=validators.ge(1),
-        metadata={"help": "where one episode tells a tree's worth: episodes of a round of annealing"},
+    round_episodes: int | None = field(
+        default=None,
+        validator=validators.optional(validators.ge(1)),
+        metadata={
+            "help": "where one episode tells a tree's worth: episodes of a round of annealing; unset: a fifth of the "
+            "budget, but no less than 2,500"
+        },
     )
 
 

@@ -1,0 +1,5 @@
+from grammarbt.testing import SearcherConformance, SearcherSubject
+
+
+class TestCompose(SearcherConformance):
+    subject = SearcherSubject("compose")

@@ -58,13 +58,9 @@ def _row(domain: Toy, begin: Callable[[Any, int], World]) -> str:
         for number in range(PLAIN_EPISODES):
             deque(play(begin(domain.parameters, number), tree), maxlen=0)
 
-    mean, plain, many = (
-        domain.simulate(policy, np.arange(EPISODES)).returns.mean(),
-        _rate(played, 1),
-        compiled(EPISODES),
-    )
-    plain *= PLAIN_EPISODES
-    return f"{mean:8.2f}{compiled(1):12,.0f}{many:13,.0f}{plain:8,.0f}{many / plain:7,.0f}"
+    mean = domain.simulate(policy, np.arange(EPISODES)).returns.mean()
+    one, many, plain = compiled(1), compiled(EPISODES), PLAIN_EPISODES * _rate(played, 1)
+    return f"{mean:8.2f}{one:12,.0f}{many:13,.0f}{plain:8,.0f}{one / plain:7,.0f}"
 
 
 def _rate(call: Callable[[], object], calls: int) -> float:

@@ -29,7 +29,7 @@ ROOT = Path(__file__).parents[2]
 PROGRAMS = ("grammarbt", "python", "ls", "cat")
 """What pages may type besides pip, which is never called: it would change the environment that the tests run in."""
 
-ANSWERS = (0, 1)  # exit codes of commands that went well: 1 where a verb answers no
+ANSWERS_NO = 1
 
 _FENCE = re.compile(r"^(?P<fence>```+)(?P<language>\w*) ?(?P<name>.*)\n(?P<text>(?:.*\n)*?)(?P=fence)$", re.MULTILINE)
 _AT_THE_END = " (at the end)"
@@ -97,7 +97,8 @@ class Terminal:
             raise ValueError(f"pages type {PROGRAMS} only, not {program!r}")
         here = program == "grammarbt" and self.site is None
         shown, aside = self._own(line) if here else self._other(line)
-        return shown if self.code in ANSWERS else shown + aside
+        went_well = self.code == 0 or (program == "grammarbt" and self.code == ANSWERS_NO)
+        return shown if went_well else shown + aside
 
     def _write(self, block: Block) -> None:
         path = self.folder / block.name.removesuffix(_AT_THE_END)

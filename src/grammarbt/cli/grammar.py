@@ -39,10 +39,13 @@ def _domain(verb: Callable[..., Answer]) -> Callable[..., Answer]:
     @click.option("--domain", required=True, metavar="NAME|FILE.py:NAME", help="Whose leaves to use.")
     @click.option("--set", "settings", multiple=True, metavar="domain.KEY=VALUE", help="A parameter of it; repeatable.")
     @wraps(verb)
-    def with_domain(domain: DomainOptions, **others: object) -> Answer:
+    def with_domain(domain: str, settings: tuple[str, ...], **others: object) -> Answer:
         return verb(domain=DomainOptions(domain, settings), **others)
 
     return with_domain
+
+
+_as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 
 
 @click.group("grammar", context_settings={"help_option_names": ["-h", "--help"]})

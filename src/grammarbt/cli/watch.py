@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from grammarbt.report.history import History
 
 _EVERY, _EVERY_LINE = 0.5, 5.0
-"""Seconds between two looks on a terminal, and elsewhere."""
+"""Seconds between two looks, and off a terminal between two lines."""
 
 _WIDTH = 60
 """Letters of the curve."""
@@ -42,14 +42,15 @@ def command(run: Path, once: bool) -> None:
 
 
 def _follow(follower: Follower, history: History, console: Console) -> History:
-    terminal = console.is_terminal
+    terminal, due = console.is_terminal, 0.0
     with Live(console=console, transient=True, auto_refresh=False) if terminal else nullcontext() as live:
         while not history.finished:
             if live is not None:
                 live.update(_view(history, follower.rate), refresh=True)
-            else:
+            elif time.monotonic() >= due:
+                due = time.monotonic() + _EVERY_LINE
                 print(line(history, follower.rate), flush=True)
-            time.sleep(_EVERY if terminal else _EVERY_LINE)
+            time.sleep(_EVERY)
             history = follower.look()
     return history
 

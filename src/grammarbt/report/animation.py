@@ -28,6 +28,8 @@ _LOOKS = {
 _HEIGHT = 4.8
 """Inches; each half is as wide as it needs, within bounds."""
 _NARROWEST, _WIDEST = 4.0, 11.0
+_RIM, _TOP = 0.01, 0.92
+"""Shares of the picture around each half, and its height, which leaves room for a caption."""
 _FRAMES_PER_SECOND = 8
 _DOTS_PER_INCH = 100
 
@@ -93,8 +95,11 @@ def _halves(box: tuple[float, float, float, float], tree_shape: float) -> tuple[
     left, bottom, right, top = box
     shapes = ((right - left) / max(top - bottom, 1e-9), tree_shape)
     widths = [min(_WIDEST, max(_NARROWEST, _HEIGHT * shape)) for shape in shapes]
-    figure = Figure(figsize=(sum(widths), _HEIGHT), layout="constrained")
-    world, tree = figure.subplots(1, 2, width_ratios=widths)
+    figure, total = Figure(figsize=(sum(widths), _HEIGHT)), sum(widths)
+    lefts = (_RIM, widths[0] / total + _RIM)
+    world, tree = (
+        figure.add_axes((left, _RIM, width / total - 2 * _RIM, _TOP)) for left, width in zip(lefts, widths, strict=True)
+    )
     return figure, (world, tree)
 
 

@@ -38,5 +38,5 @@ def sparkline(values: Sequence[float], width: int) -> str:
     if not shown:
         return ""
     low, high = min(shown), max(shown)
-    scale = (len(_BARS) - 1) / (high - low) if high > low else 0.0
-    return "".join(_BARS[round((value - low) * scale)] for value in shown)
+    spread = high - low or 1.0
+    return "".join(_BARS[round((value - low) / spread * (len(_BARS) - 1))] for value in shown)

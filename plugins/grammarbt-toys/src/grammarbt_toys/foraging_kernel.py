@@ -70,8 +70,8 @@ def _begin(world: World, pieces: int, scenario: int) -> None:
         robot = world.robots[number]
         robot.row, robot.column, item = _free_cell(size, 0, scenario, item)
         robot.down, robot.right = _direction(uniform(scenario, 0, number))
-        robot.carrying = False
-        robot.known[:] = UNKNOWN
+        robot.carrying = robot.knows_hub = False
+        robot.site_row = robot.site_column = UNKNOWN
     for site in range(len(world.sites)):
         row, column, item = _free_cell(size, size // 4, scenario, item)
         world.sites[site] = row, column
@@ -146,16 +146,14 @@ def _tick(program: Program, world: World, number: int, scenario: int, step: int)
 @inlined
 def _look(world: World, robot: Robot) -> None:
     """Remember the hub and a site that are in sight; forget a site in sight that is empty."""
-    middle = len(world.food) // 2
-    if _distance(robot, middle, middle) <= world.sight:
-        robot.known[HUB, 0] = robot.known[HUB, 1] = middle
+    robot.knows_hub = robot.knows_hub != 0 or _near(world, robot, HUB, world.sight)
     for site in range(len(world.sites)):
         row, column = world.sites[site, 0], world.sites[site, 1]
         if _distance(robot, row, column) <= world.sight:
             if world.food[row, column] > 0:
-                robot.known[SITE, 0], robot.known[SITE, 1] = row, column
-            elif robot.known[SITE, 0] == row and robot.known[SITE, 1] == column:
-                robot.known[SITE, 0] = robot.known[SITE, 1] = UNKNOWN
+                robot.site_row, robot.site_column = row, column
+            elif robot.site_row == row and robot.site_column == column:
+                robot.site_row = robot.site_column = UNKNOWN
 
 
 @inlined
@@ -167,8 +165,11 @@ def _distance(robot: Robot, row: int, column: int) -> int:
 @inlined
 def _where(world: World, robot: Robot, thing: int) -> tuple[int, int]:
     """Where the robot knows the hub, a site, or food: the nearest in sight; among equals the first, row by row."""
-    if thing != FOOD:
-        return robot.known[thing, 0], robot.known[thing, 1]
+    if thing == HUB:
+        middle = len(world.food) // 2
+        return (middle, middle) if robot.knows_hub != 0 else (UNKNOWN, UNKNOWN)
+    if thing == SITE:
+        return robot.site_row, robot.site_column
     nearest, at_row, at_column = world.sight + 1, UNKNOWN, UNKNOWN
     for pile in range(world.filled[0]):
         row, column = world.piles[pile, 0], world.piles[pile, 1]
@@ -181,7 +182,7 @@ def _where(world: World, robot: Robot, thing: int) -> tuple[int, int]:
 @inlined
 def _holds(world: World, robot: Robot, condition: int) -> bool:
     if condition >= VISITED_BEFORE:
-        return bool(robot.known[condition - VISITED_BEFORE, 0] != UNKNOWN)
+        return _where(world, robot, condition - VISITED_BEFORE)[0] != UNKNOWN
     if condition >= DROPPABLE:
         return robot.carrying != 0 and _near(world, robot, condition - DROPPABLE, REACH)
     if condition == CARRYING:
@@ -194,10 +195,12 @@ def _near(world: World, robot: Robot, thing: int, cells: int) -> bool:
     """Whether a thing of that kind, known or not, is at most so many cells away."""
     if thing == HUB:
         return _distance(robot, len(world.food) // 2, len(world.food) // 2) <= cells
-    places, count = (world.sites, len(world.sites)) if thing == SITE else (world.piles, world.filled[0])
+    if thing == FOOD:
+        row, column = _where(world, robot, FOOD)
+        return row != UNKNOWN and _distance(robot, row, column) <= cells
     near = False
-    for place in range(count):
-        near = near or _distance(robot, places[place, 0], places[place, 1]) <= cells
+    for site in range(len(world.sites)):
+        near = near or _distance(robot, world.sites[site, 0], world.sites[site, 1]) <= cells
     return near
 
 

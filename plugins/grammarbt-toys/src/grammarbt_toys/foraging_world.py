@@ -17,7 +17,9 @@ ROBOT = np.dtype(
         ("right", np.int64),
         ("carrying", np.int64),  # whether it carries a piece of food
         ("moved", np.int64),  # whether it has moved in this tick
-        ("known", np.int64, (2, 2)),  # where it last saw the hub and a site; UNKNOWN where it does not know
+        ("knows_hub", np.int64),  # whether it has seen the hub
+        ("site_row", np.int64),  # where it last saw a site, UNKNOWN where it has not
+        ("site_column", np.int64),
     ],
     align=True,
 )

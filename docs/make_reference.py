@@ -41,7 +41,7 @@ def _page(title: str, lines: Iterator[str]) -> str:
 def _cli() -> Iterator[str]:
     yield "Exit codes: 0 on success, 2 after a user's mistake, 130 after Ctrl-C, 1 where a verb answers *no*."
     yield ""
-    group = click.Context(application, info_name="grammarbt")
+    group = click.Context(application, info_name="grammarbt", **application.context_settings)
     for verb in VERBS:
         command = application.get_command(group, verb)
         if command is not None:

@@ -5,7 +5,8 @@
 A block that begins with ```python robot.py is the file robot.py, and ```python robot.py (at the end) goes to its end. In a
 `console` block each line that begins with `$` is a command, with what it prints below. There `…` stands for anything: a
 line of its own for any number of lines, inside a line for any text. Warnings and progress are not shown on pages; the
-message of a mistake is.
+message of a mistake is. A page that takes something for granted, a run say, has the command for it in a comment of a line,
+`<!-- $ … -->`; these are typed first.
 """
 
 import contextlib
@@ -34,6 +35,7 @@ ANSWERS_NO = 1
 _FENCE = re.compile(r"^(?P<fence>```+)(?P<language>\w*) ?(?P<name>.*)\n(?P<text>(?:.*\n)*?)(?P=fence)$", re.MULTILINE)
 _AT_THE_END = " (at the end)"
 _COMMAND = re.compile(r"^\$ (?P<line>.*(?:\\\n> .*)*)\n(?P<said>(?:(?!\$ ).*\n)*)", re.MULTILINE)
+_GRANTED = re.compile(r"^<!-- \$ (.*) -->$", re.MULTILINE)
 _DURATION = re.compile(r"\b\d[\d.,]* s$", re.MULTILINE)
 
 
@@ -79,6 +81,8 @@ class Terminal:
 
     def play(self, markdown: str) -> Iterator[tuple[str, str, str]]:
         """Write the files of a page and run its commands, in order; yields command, what the page says, what it printed."""
+        for line in _GRANTED.findall(markdown):
+            self.type(line)
         for block in blocks(markdown):
             if block.name:
                 self._write(block)

@@ -2,6 +2,7 @@
 
 import importlib
 import importlib.util
+import inspect
 from pathlib import Path
 
 import pytest
@@ -31,5 +32,5 @@ def test_every_public_name_is_there_and_explained(package):
     assert list(module.__all__) == sorted(set(module.__all__), key=list(module.__all__).index)
     for name in module.__all__:
         thing = getattr(module, name)
-        if isinstance(thing, type) or callable(thing):
+        if inspect.isclass(thing) or inspect.isfunction(thing):
             assert getattr(thing, "__doc__", None), f"{package}.{name} has no docstring"

@@ -2,13 +2,18 @@
 
 import subprocess
 import sys
+from io import StringIO
 from math import isfinite
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from rich.console import Console
 
+from grammarbt.bt import parse
 from grammarbt.cli import main
+from grammarbt.cli.drawing import drawing
+from grammarbt.cli.watch import view
 from grammarbt.report.following import Follower
 from grammarbt.report.history import read_history
 from grammarbt.report.sparkline import course, sparkline
@@ -56,6 +61,16 @@ def test_once_says_where_a_run_is_and_ends(run, capsys):
     journal.write_bytes(b"".join(journal.read_bytes().splitlines(keepends=True)[:40]))
     assert main(["watch", str(run), "--once"]) == 0
     assert f"{read_history(run).episodes} of 300 episodes" in capsys.readouterr().out
+
+
+def test_the_view_shows_curve_tree_and_speed(made_run):
+    history = read_history(made_run)
+    console = Console(width=100, record=True, file=StringIO())
+    console.print(view(history, 1234.0))
+    shown = console.export_text()
+    assert "1,234 episodes/s" in shown
+    assert "█" in shown
+    assert all(line in shown for line in drawing(parse(history.improvements[-1].tree)))
 
 
 def test_watching_what_is_no_run_is_refused(tmp_path, capsys):

@@ -46,7 +46,7 @@ def _follow(follower: Follower, history: History, console: Console) -> History:
     with Live(console=console, transient=True, auto_refresh=False) if terminal else nullcontext() as live:
         while not history.finished:
             if live is not None:
-                live.update(_view(history, follower.rate), refresh=True)
+                live.update(view(history, follower.rate), refresh=True)
             elif time.monotonic() >= due:
                 due = time.monotonic() + _EVERY_LINE
                 print(line(history, follower.rate), flush=True)
@@ -63,7 +63,8 @@ def line(history: History, rate: float | None) -> str:
     return ", ".join(parts)
 
 
-def _view(history: History, rate: float | None) -> Group:
+def view(history: History, rate: float | None) -> Group:
+    """Where a run is, for a terminal: the curve of the best value, and the best tree, a node a line."""
     budget = int(history.resolved["budget"])
     phase = "choosing and validating" if history.stopped else "searching"
     speed = "" if rate is None else f", {rate:,.0f} episodes/s"

@@ -13,8 +13,10 @@ from grammarbt.report.recording import statuses_of
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.patches import Patch
 
     from grammarbt.domain import Episode, Mark
     from grammarbt.report.recording import Statuses
@@ -31,7 +33,7 @@ _NARROWEST, _WIDEST = 4.0, 11.0
 _RIM, _TOP = 0.01, 0.92
 """Shares of the picture around each half, and its height, which leaves room for a caption."""
 _FRAMES_PER_SECOND = 8
-_DOTS_PER_INCH = 100
+_DOTS_PER_INCH = 80
 
 
 def save_gif(tree: BehaviorTree, episode: Episode, path: Path) -> None:
@@ -48,7 +50,7 @@ def save_still(tree: BehaviorTree, episode: Episode, tick: int, path: Path) -> N
     """One tick, counted from 1; 0 is the world before the first."""
     stage = _Stage(tree, episode)
     stage.show(tick)
-    stage.figure.savefig(path, dpi=2 * _DOTS_PER_INCH)
+    stage.figure.savefig(path, dpi=3 * _DOTS_PER_INCH)
 
 
 class _Stage:
@@ -59,30 +61,42 @@ class _Stage:
         self._statuses: list[Statuses] = [(None,) * len(self._drawing.nodes), *statuses_of(tree, episode)]
         self.figure, (self._world, self._tree) = _halves(episode.box, self._drawing.width / self._drawing.height)
         self._scale = _fitted(self._tree, self._drawing.width)
+        self._marks = {mark.name: mark for mark in episode.marks}
+        self._artists: dict[str, tuple[Mark, list[Artist]]] = {}
+        self._shown = 0
+        self._coloured: Statuses = ()
+        left, bottom, right, top = episode.box
+        self._world.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
+        self._world.axis("off")
 
     def show(self, tick: int) -> list[Axes]:
-        """Draw the state after so many ticks."""
-        for half in (self._world, self._tree):
-            half.clear()
-            half.axis("off")
+        """Draw the state after so many ticks, which may only grow from call to call."""
         reward = self._episode.frames[tick - 1].reward if tick else 0.0
         self._world.set_title(f"tick {tick}, {self._episode.unit or 'reward'} {reward:g}", fontsize=9)
-        self._draw_world(tick)
+        for frame in self._episode.frames[self._shown : tick]:
+            self._marks.update((mark.name, mark) for mark in frame.changes)
+        self._shown = tick
+        self._draw_world()
         self._draw_tree(self._statuses[tick])
         return [self._world, self._tree]
 
-    def _draw_world(self, tick: int) -> None:
-        left, bottom, right, top = self._episode.box
-        self._world.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
-        marks = {mark.name: mark for mark in self._episode.marks}
-        for frame in self._episode.frames[:tick]:
-            marks.update((mark.name, mark) for mark in frame.changes)
-        for order, mark in enumerate(marks.values()):
-            _draw_mark(self._world, mark, order, (top - bottom) / 60)
+    def _draw_world(self) -> None:
+        """Draw anew what is not what it was."""
+        letter = (self._episode.box[3] - self._episode.box[1]) / 60
+        for order, (name, mark) in enumerate(self._marks.items()):
+            before, artists = self._artists.get(name, (None, []))
+            if mark != before:
+                for artist in artists:
+                    artist.remove()
+                self._artists[name] = mark, _draw_mark(self._world, mark, order, letter)
 
     def _draw_tree(self, statuses: Statuses) -> None:
-        width, height = self._drawing.width, self._drawing.height
-        self._tree.set(xlim=(0, width), ylim=(height, 0), aspect="equal")
+        if statuses == self._coloured:
+            return
+        self._coloured = statuses
+        self._tree.clear()
+        self._tree.axis("off")
+        self._tree.set(xlim=(0, self._drawing.width), ylim=(self._drawing.height, 0), aspect="equal")
         draw_tree(self._tree, self._drawing, self._scale, [_FILLS[status] for status in statuses])
         for node, status in zip(self._drawing.nodes, statuses, strict=True):
             corner = (node.x + node.width / 2, node.y - HEIGHT / 2)
@@ -110,21 +124,27 @@ def _fitted(axes: Axes, width: float) -> float:
     return float(figure.get_figwidth() * share * 72 / width) if figure else 1.0
 
 
-def _draw_mark(axes: Axes, mark: Mark, order: int, letter: float) -> None:
-    from matplotlib.patches import Circle, RegularPolygon  # noqa: PLC0415 - an extra
-
-    colour, style = _LOOKS[mark.role], dict[str, Any](alpha=mark.shade, zorder=order)
+def _draw_mark(axes: Axes, mark: Mark, order: int, letter: float) -> list[Artist]:
+    """Draw a mark and its label; `letter` is how far above it that stands."""
+    style = dict[str, Any](color=_LOOKS[mark.role], alpha=mark.shade, zorder=order)
+    drawn: list[Artist] = []
     if mark.shape == "line":
-        axes.plot((mark.x, mark.to_x), (mark.y, mark.to_y), color=colour, linewidth=1, **style)
-    elif mark.shape == "circle":
-        axes.add_patch(Circle((mark.x, mark.y), mark.size / 2, color=colour, **style))
-    elif mark.shape in ("square", "triangle"):
-        corners, turn = (4, pi / 4) if mark.shape == "square" else (3, -pi / 2)
-        radius = mark.size / 2**0.5 if mark.shape == "square" else mark.size * 0.6
-        place = (mark.x, mark.y)
-        axes.add_patch(
-            RegularPolygon(place, corners, radius=radius, orientation=mark.angle + turn, color=colour, **style)
-        )
+        drawn += axes.plot((mark.x, mark.to_x), (mark.y, mark.to_y), linewidth=1, scalex=False, scaley=False, **style)
+    elif mark.shape != "text":
+        drawn.append(axes.add_patch(_patch(mark, style)))
     if mark.label and mark.shade > 0:
         above = 0.0 if mark.shape == "text" else mark.size / 2 + letter
-        axes.text(mark.x, mark.y + above, mark.label, ha="center", va="center", fontsize=7, parse_math=False)
+        place = dict[str, Any](ha="center", va="center", zorder=order)
+        drawn.append(axes.text(mark.x, mark.y + above, mark.label, fontsize=7, parse_math=False, **place))
+    return drawn
+
+
+def _patch(mark: Mark, style: dict[str, Any]) -> Patch:
+    from matplotlib.patches import Circle, RegularPolygon  # noqa: PLC0415 - an extra
+
+    place = (mark.x, mark.y)
+    if mark.shape == "circle":
+        return Circle(place, mark.size / 2, **style)
+    if mark.shape == "square":
+        return RegularPolygon(place, 4, radius=mark.size / 2**0.5, orientation=mark.angle + pi / 4, **style)
+    return RegularPolygon(place, 3, radius=mark.size * 0.6, orientation=mark.angle - pi / 2, **style)

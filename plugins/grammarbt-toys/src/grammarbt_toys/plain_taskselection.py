@@ -40,7 +40,7 @@ class PlainTaskSelection:
 
     def step(self, _: Status | None) -> None:
         """Go on to the next assignment."""
-        truth, wanted = self._truth(), right_action(self._truth())
+        truth, wanted = self._truth(), f"a{right_action(self._truth())}"
         self._ended = "" if self.chosen == wanted else f"wrong: {self.chosen or 'nothing'} instead of {wanted}"
         self._marks = tuple(self._draw(self.chosen or "nothing", truth))
         self.right += self.chosen == wanted
@@ -56,10 +56,10 @@ class PlainTaskSelection:
         return (self._ended,) if self._ended else ()
 
     def _truth(self) -> tuple[bool, ...]:
-        return tuple(bool(self.assignment >> number & 1) for number in range(self.last + 1))
+        return truth_of(self.assignment, self.last)
 
     def _draw(self, chosen: str, truth: tuple[bool, ...]) -> Iterator[Mark]:
-        wanted = right_action(truth)
+        wanted = f"a{right_action(truth)}"
         for number, holds in enumerate(truth):
             label = f"c{number} {'holds' if holds else 'does not'}"
             yield Mark(f"c{number}", "square", "place", number, 0.0, 0.6, 1.0 if holds else 0.2, label)
@@ -67,6 +67,11 @@ class PlainTaskSelection:
         yield Mark("chosen", "text", "robot" if chosen in {"", wanted} else "hazard", 0.0, 1.2, 0.4, label=chosen)
 
 
-def right_action(truth: Sequence[bool]) -> str:
-    """The name of the right action where these conditions hold."""
-    return "a0" if truth[0] else f"a{prod(number for number, holds in enumerate(truth) if holds)}"
+def truth_of(assignment: int, last: int) -> tuple[bool, ...]:
+    """Whether c0 to c`last` hold: bit i of the assignment says whether ci does."""
+    return tuple(bool(assignment >> number & 1) for number in range(last + 1))
+
+
+def right_action(truth: Sequence[bool]) -> int:
+    """The number of the right action where these conditions hold."""
+    return 0 if truth[0] else prod(number for number, holds in enumerate(truth) if holds)

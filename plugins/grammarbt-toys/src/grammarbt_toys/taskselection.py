@@ -18,7 +18,7 @@ from grammarbt.bt import Action, Condition, Fallback, Sequence, Status, format_t
 from grammarbt.domain import ActionType, ConditionType, Group, Outcome, Reference, Vocabulary
 from grammarbt.domain.plain import record
 from grammarbt_toys.parameters import TaskSelectionParameters
-from grammarbt_toys.plain_taskselection import PlainTaskSelection
+from grammarbt_toys.plain_taskselection import PlainTaskSelection, right_action, truth_of
 from grammarbt_toys.program import make_program
 from grammarbt_toys.taskselection_kernel import first_actions
 
@@ -39,7 +39,7 @@ class TaskSelection:
         last = self.parameters.conditions
         self.vocabulary = make_vocabulary(last)
         self.references = (Reference("constructed", format_tree(right_tree(last))),)
-        self._right = np.array([right_action(assignment, last) for assignment in range(2 ** (last + 1))])
+        self._right = np.array([right_action(truth_of(number, last)) for number in range(2 ** (last + 1))])
 
     def simulate(self, policy: Policy, scenarios: Scenarios) -> Outcome:
         """Tick once in every assignment; the same for every scenario."""
@@ -60,13 +60,6 @@ def make_vocabulary(last: int) -> Vocabulary:
     actions = (ActionType(f"a{number}", f"Do task {number}.", results=running) for number in range(factorial(last) + 1))
     conditions = (ConditionType(f"c{number}", f"Condition {number} holds.") for number in range(last + 1))
     return Vocabulary((Group("tasks", tuple(actions), tuple(conditions)),))
-
-
-def right_action(assignment: int, last: int) -> int:
-    """The number of the right action; bit i of the assignment says whether ci holds."""
-    if assignment & 1:
-        return 0
-    return prod(number for number in range(1, last + 1) if assignment >> number & 1)
 
 
 def right_tree(last: int) -> BehaviorTree:

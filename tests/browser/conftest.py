@@ -28,9 +28,9 @@ def install_chromium():
     return find_chromium()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def chromium():
-    """A running browser."""
+    """A running browser, closed before other tests: while Playwright is there, nobody else can run an event loop."""
     path = find_chromium() or install_chromium()
     if path is None:
         pytest.skip("no Chromium is installed; with Debian: apt-get install chromium")

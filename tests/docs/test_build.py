@@ -8,12 +8,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-SKIPPED = {"_build", ".venv", ".nox", "node_modules", "runs", "templates"}
-PAGES = sorted(
-    path
-    for path in ROOT.rglob("*.md")
-    if not SKIPPED & set(path.relative_to(ROOT).parts) and not any(part.startswith(".") for part in path.parts[1:])
-)
+FOLDERS = ("docs", "plugins", "benchmarks", "grammars")
+PAGES = sorted([*ROOT.glob("*.md"), *(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.md"))])
+PAGES = [path for path in PAGES if "_build" not in path.parts and not any(part.startswith(".") for part in path.parts)]
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"^```.*?^```$|^ {4,}.*?$|`[^`\n]+`", re.DOTALL | re.MULTILINE)
 

@@ -1,3 +1,5 @@
+import math
+
 import numpy as np
 import pytest
 
@@ -54,5 +56,32 @@ def test_threshold_ascent_counts_only_the_best_rewards():
         bandit.credit(arm, reward)
     assert bandit.threshold == 3.0
     assert bandit.index(high, 2, 5) > bandit.index(low, 2, 5)
-    assert low.high == []
-    assert high.high == [3.0, 4.0]
+    assert low.kept == []
+    assert high.kept == [3.0, 4.0]
+
+
+def uniform_arm(bandit, rewards):
+    arm = Arm()
+    for reward in rewards:
+        bandit.observe(reward)
+        bandit.credit(arm, reward)
+    return arm
+
+
+def test_ucb1_uniform_is_the_middle_of_the_range_and_a_bonus_as_wide_as_it():
+    bandit = make_bandit("ucb1-uniform", 0.5)
+    arm = uniform_arm(bandit, (3.0, 1.0, 1.5, 7.0))
+    assert bandit.index(arm, 4, 10) == pytest.approx(4.0 + 0.5 * 6.0 * math.sqrt(6 * 4 * math.log(10)))
+
+
+def test_ucb1_uniform_leaves_a_plateau():
+    bandit = make_bandit("ucb1-uniform", 1.0)
+    flat, wide = uniform_arm(bandit, (5.0, 5.0, 5.0)), uniform_arm(bandit, (3.0, 5.5))
+    assert bandit.index(flat, 3, 5) == 5.0
+    assert bandit.index(wide, 2, 5) > bandit.index(flat, 3, 5)
+
+
+def test_ucb1_uniform_stays_with_one_of_two_equal_arms():
+    bandit = make_bandit("ucb1-uniform", 1.0)
+    often, seldom = uniform_arm(bandit, (4.0, 6.0, 5.0, 5.0)), uniform_arm(bandit, (4.0, 6.0))
+    assert bandit.index(often, 4, 6) > bandit.index(seldom, 2, 6)

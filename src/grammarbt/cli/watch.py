@@ -68,7 +68,7 @@ def view(history: History, rate: float | None) -> Group:
     budget = int(history.resolved["budget"])
     phase = "choosing and validating" if history.stopped else "searching"
     speed = "" if rate is None else f", {rate:,.0f} episodes/s"
-    rows = [f"{history.title}: {phase}, {history.episodes:,} of {budget:,} episodes{speed}"]
+    rows = [history.title, f"{phase}: {history.episodes:,} of {budget:,} episodes{speed}"]
     if history.improvements:
         best = history.improvements[-1]
         curve = course([(each.episodes, each.mean) for each in history.improvements], history.episodes, _WIDTH)

@@ -8,7 +8,7 @@ from typing import Literal, Protocol
 
 from attrs import define, field
 
-BanditName = Literal["ucb1", "ucb1-tuned", "ucb1-normal2", "threshold-ascent"]
+BanditName = Literal["ucb1", "ucb1-tuned", "ucb1-normal2", "ucb1-uniform", "threshold-ascent"]
 
 
 @define(eq=False)
@@ -18,13 +18,14 @@ class Arm:
     Attributes:
         visits: how many rewards.
         total, squares: their sum and the sum of their squares.
-        high: the highest of them, rising; kept for threshold ascent alone.
+        kept: those of them that the rule needs one by one, rising: the highest for threshold ascent, the lowest and the
+            highest for UCB1-Uniform.
     """
 
     visits: int = field(default=0, init=False)
     total: float = field(default=0.0, init=False)
     squares: float = field(default=0.0, init=False)
-    high: list[float] = field(factory=list, init=False)
+    kept: list[float] = field(factory=list, init=False)
 
     def add(self, reward: float) -> None:
         """Count one reward."""
@@ -109,6 +110,25 @@ class Ucb1Normal2(Ucb1):
         return arm.mean + self.c * sqrt(arm.variance * 2.0 * log(max(trials, 1)))
 
 
+class Ucb1Uniform(Ucb1):
+    """UCB1-Uniform (Asai & Wissow 2026, theorem 6): for rewards spread evenly over a range of the arm's own.
+
+    An arm that always brings the same has no bonus; between arms of one range, the one pulled more often is preferred,
+    so that a search goes deep instead of broad.
+    """
+
+    def credit(self, arm: Arm, reward: float) -> None:
+        """Count the reward, and widen the arm's range."""
+        arm.add(reward)
+        low, high = (arm.kept[0], arm.kept[-1]) if arm.kept else (reward, reward)
+        arm.kept = [min(low, reward), max(high, reward)]
+
+    def index(self, arm: Arm, pulls: float, trials: int) -> float:
+        """Middle of the arm's range + c · the range · √(6 · pulls · ln trials)."""
+        low, high = arm.kept
+        return (low + high) / 2.0 + self.c * (high - low) * sqrt(6.0 * pulls * log(max(trials, 1)))
+
+
 class ThresholdAscent:
     """Threshold ascent (Streeter & Smith 2006): an arm's value is its share among the s best rewards of all.
 
@@ -136,14 +156,14 @@ class ThresholdAscent:
         """Count the reward; the threshold only rises, so one below it never matters again."""
         arm.add(reward)
         if reward >= self.threshold:
-            insort(arm.high, reward)
+            insort(arm.kept, reward)
 
     def index(self, arm: Arm, pulls: float, trials: int) -> float:
         """μ + (α + √(2nμα + α²)) / n, with n pulls, μ = rewards at or above the threshold / n, α = ln(2 trials / δ)."""
-        while arm.high and arm.high[0] < self.threshold:
-            del arm.high[0]
+        while arm.kept and arm.kept[0] < self.threshold:
+            del arm.kept[0]
         alpha = log(2.0 * max(trials, 1) / self.delta)
-        high = min(float(len(arm.high)), pulls)
+        high = min(float(len(arm.kept)), pulls)
         return (high + alpha + sqrt(2.0 * high * alpha + alpha * alpha)) / pulls
 
 
@@ -151,4 +171,5 @@ def make_bandit(name: BanditName, c: float, span: float | None = None) -> Bandit
     """The rule of that name."""
     if name == "threshold-ascent":
         return ThresholdAscent()
-    return {"ucb1": Ucb1, "ucb1-tuned": Ucb1Tuned, "ucb1-normal2": Ucb1Normal2}[name](c, span)
+    rules = {"ucb1": Ucb1, "ucb1-tuned": Ucb1Tuned, "ucb1-normal2": Ucb1Normal2, "ucb1-uniform": Ucb1Uniform}
+    return rules[name](c, span)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from grammarbt.domain import Scenarios
 from grammarbt_toys.chance import uniform
-from grammarbt_toys.program import FAILURE, SUCCESS, Program, compiled
+from grammarbt_toys.program import FAILURE, SUCCESS, Program, compiled, inlined
 
 RIGHTS, UPS = (-1, 0, 1, 2, 3, 4), (-1, 0, 1, 2)
 """The receptive field: cells to the right of the player and above it."""
@@ -32,7 +32,7 @@ ENEMY = SOLID + len(RIGHTS) * len(UPS)
 X, Y, RISING, FACING, RELOADING = range(5)
 """Places in the player's state."""
 GAP = -100
-GONE = -100
+GONE, NO_MORE = -100, -200
 RISE, RANGE, RELOAD = 2, 6, 6
 FREE = 8
 """Columns without anything at both ends of the level."""
@@ -43,7 +43,7 @@ class World(NamedTuple):
 
     Attributes:
         ground: (N,) height of the ground; level ground has 0, a gap `GAP`.
-        enemies: (N,) column of the enemy that began in each column, or `GONE`; they walk on level ground.
+        enemies: (N,) column of each enemy, the leftmost first, or `GONE`; after the last one `NO_MORE`.
         walking: (N,) the direction, -1 or 1, in which each walks.
         player: (5,) the player's column, height, steps still to rise, direction, and steps until it can shoot.
     """
@@ -75,11 +75,11 @@ def simulate(program: Program, world: World, steps: int, scenarios: Scenarios) -
 def make_level(world: World, scenario: int) -> None:
     """Draw the level from left to right: gaps of 1 to 3 columns, walls 1 or 2 high, enemies, with space between."""
     world.ground[:] = 0
-    world.enemies[:] = GONE
+    world.enemies[:] = NO_MORE
     world.walking[:] = -1
     world.player[:] = 0
     world.player[FACING] = 1
-    column = FREE
+    column, enemies = FREE, 0
     while column < len(world.ground) - FREE:
         kind, size = int(uniform(scenario, column, 0) * 3), int(uniform(scenario, column, 1) * 3)
         if kind == 0:
@@ -87,7 +87,8 @@ def make_level(world: World, scenario: int) -> None:
         elif kind == 1:
             world.ground[column] = min(size, 1) + 1
         else:
-            world.enemies[column] = column
+            world.enemies[enemies] = column
+            enemies += 1
         column += size + 4 + int(uniform(scenario, column, 2) * 4)
 
 
@@ -106,7 +107,7 @@ def play(program: Program, world: World, steps: int) -> int:
     return farthest
 
 
-@compiled
+@inlined
 def _tick(program: Program, world: World, pressed: NDArray[np.bool_]) -> None:
     at = 0
     while at >= 0:
@@ -120,7 +121,7 @@ def _tick(program: Program, world: World, pressed: NDArray[np.bool_]) -> None:
         at = program.follow[at, status]
 
 
-@compiled
+@inlined
 def _holds(world: World, condition: int) -> bool:
     x, y = world.player[X], world.player[Y]
     if condition == ON_GROUND:
@@ -133,23 +134,24 @@ def _holds(world: World, condition: int) -> bool:
     return _enemy(world, x, y) >= 0 if condition >= ENEMY else _solid(world, x, y)
 
 
-@compiled
+@inlined
 def _solid(world: World, x: int, y: int) -> bool:
     """The level begins with a wall and ends without one."""
     return x < 0 or (x < len(world.ground) and bool(y < world.ground[x]))
 
 
-@compiled
+@inlined
 def _enemy(world: World, x: int, y: int) -> int:
     """The number of the first enemy in that cell, or -1."""
-    if y == 0:
-        for number in range(len(world.enemies)):
-            if world.enemies[number] == x:
-                return number
+    number = 0
+    while y == 0 and number < len(world.enemies) and world.enemies[number] != NO_MORE:
+        if world.enemies[number] == x:
+            return number
+        number += 1
     return -1
 
 
-@compiled
+@inlined
 def _move(world: World, pressed: NDArray[np.bool_], step: int) -> bool:
     """Let a step pass; gives whether the player is still in the game."""
     _rise_or_fall(world, pressed[JUMP])
@@ -160,7 +162,7 @@ def _move(world: World, pressed: NDArray[np.bool_], step: int) -> bool:
     return alive and _enemy(world, world.player[X], world.player[Y]) < 0
 
 
-@compiled
+@inlined
 def _rise_or_fall(world: World, jump: bool) -> None:
     player = world.player
     on_ground = _solid(world, player[X], player[Y] - 1)
@@ -176,7 +178,7 @@ def _rise_or_fall(world: World, jump: bool) -> None:
             world.enemies[beaten] = GONE
 
 
-@compiled
+@inlined
 def _go(world: World, pressed: NDArray[np.bool_]) -> bool:
     """Go along, up to the next wall; gives whether no enemy was met. Left and right together stand still."""
     player = world.player
@@ -192,7 +194,7 @@ def _go(world: World, pressed: NDArray[np.bool_]) -> bool:
     return True
 
 
-@compiled
+@inlined
 def _shoot(world: World, shoot: bool) -> None:
     """Beat the nearest enemy in range that no wall hides."""
     player = world.player
@@ -209,10 +211,12 @@ def _shoot(world: World, shoot: bool) -> None:
             return
 
 
-@compiled
+@inlined
 def _walk(world: World) -> None:
-    """Enemies walk one cell, or turn round where the level ground ends."""
+    """Enemies walk one cell on level ground, or turn round where that ends."""
     for number in range(len(world.enemies)):
+        if world.enemies[number] == NO_MORE:
+            return
         if world.enemies[number] != GONE:
             ahead = world.enemies[number] + world.walking[number]
             if 0 <= ahead < len(world.ground) and world.ground[ahead] == 0:

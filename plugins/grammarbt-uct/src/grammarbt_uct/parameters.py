@@ -13,7 +13,7 @@ class UctParameters:
 
     bandit: BanditName = field(
         default="ucb1",
-        validator=validators.in_(("ucb1", "ucb1-tuned", "ucb1-normal2", "threshold-ascent")),
+        validator=validators.in_(("ucb1", "ucb1-tuned", "ucb1-normal2", "ucb1-uniform", "threshold-ascent")),
         metadata={"help": "rule that selects among the children of a node"},
     )
     c: float = field(

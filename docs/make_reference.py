@@ -5,13 +5,17 @@ A test compares what this gives with what stands there.
 
 from __future__ import annotations
 
+import ast
 import importlib
 import inspect
 from collections.abc import Iterator
+from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
 import click
 
+import grammarbt
 from grammarbt import errors
 from grammarbt.cli.app import VERBS, application
 from grammarbt.plugins import PluginHost, PluginOptions, Registry, hookspecs, specs
@@ -72,7 +76,8 @@ def _hooks() -> Iterator[str]:
     for name, hook in named:
         yield f"## `{name}`"
         yield ""
-        yield f"```python\ndef {name}{inspect.signature(hook)}: ...\n```"
+        signature = str(inspect.signature(hook)).replace("'", "")  # annotations are kept as texts
+        yield f"```python\ndef {name}{signature}: ...\n```"
         yield ""
         yield inspect.getdoc(hook) or ""
         yield ""
@@ -128,7 +133,7 @@ def _api() -> Iterator[str]:
         yield (inspect.getdoc(module) or "").splitlines()[0]
         yield ""
         for name in sorted(module.__all__):
-            yield f"- `{name}`{_summary(getattr(module, name))}"
+            yield f"- `{name}`{_summary(name, getattr(module, name))}"
         yield ""
     yield "## `grammarbt.errors`"
     yield ""
@@ -136,16 +141,28 @@ def _api() -> Iterator[str]:
     yield ""
     for name, thing in vars(errors).items():
         if inspect.isclass(thing) and thing.__module__ == errors.__name__:
-            yield f"- `{name}`{_summary(thing)}"
+            yield f"- `{name}`{_summary(name, thing)}"
     yield ""
 
 
-def _summary(thing: object) -> str:
-    """The first line of a class's or function's docstring."""
-    if not (inspect.isclass(thing) or inspect.isfunction(thing)):
-        return ""
-    lines = (thing.__doc__ or "").strip().splitlines()
-    return f": {lines[0]}" if lines else ""
+def _summary(name: str, thing: object) -> str:
+    """The first line of what the code says about a public name."""
+    own = inspect.isclass(thing) or inspect.isroutine(thing) or hasattr(thing, "__wrapped__")
+    text = (inspect.getdoc(thing) if own else _below_assignments().get(name)) or ""
+    return f": {text.strip().splitlines()[0]}" if text.strip() else ""
+
+
+@cache
+def _below_assignments() -> dict[str, str]:
+    """What stands below constants and aliases, by their names, wherever in the core they are made."""
+    found: dict[str, str] = {}
+    for path in sorted(Path(grammarbt.__file__).parent.rglob("*.py")):
+        body = ast.parse(path.read_text(encoding="utf-8")).body
+        for made, below in pairwise(body):
+            if isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
+                targets = made.targets if isinstance(made, ast.Assign) else [getattr(made, "target", None)]
+                found |= {each.id: str(below.value.value) for each in targets if isinstance(each, ast.Name)}
+    return found
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """A real Chromium, and the pages it is shown."""
 
+import contextlib
 import os
 import shutil
 import subprocess
@@ -24,18 +25,24 @@ def install_chromium():
     """Debian's, where continuous integration runs as root; elsewhere that is the user's to decide."""
     if os.environ.get("CI") and os.geteuid() == 0 and shutil.which("apt-get"):
         for command in INSTALL:
-            subprocess.run(command, check=False, capture_output=True, timeout=300)
+            with contextlib.suppress(subprocess.TimeoutExpired):  # no network
+                subprocess.run(command, check=False, capture_output=True, timeout=180)
     return find_chromium()
 
 
+@pytest.fixture(scope="session")
+def chromium_path():
+    """Where the browser is, looked for once; None if there is none."""
+    return find_chromium() or install_chromium()
+
+
 @pytest.fixture(scope="module")
-def chromium():
+def chromium(chromium_path):
     """A running browser, closed before other tests: while Playwright is there, nobody else can run an event loop."""
-    path = find_chromium() or install_chromium()
-    if path is None:
+    if chromium_path is None:
         pytest.skip("no Chromium is installed; with Debian: apt-get install chromium")
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-dev-shm-usage"])
+        browser = playwright.chromium.launch(executable_path=chromium_path, args=["--no-sandbox", "--disable-dev-shm-usage"])
         yield browser
         browser.close()
 

@@ -8,7 +8,8 @@ import pytest
 from grammarbt.plugins import PluginHost, PluginOptions, Registry
 from grammarbt.run.bench import cells, read_bench
 
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+ROOT = Path(__file__).parents[2]
+BENCHMARKS = ROOT / "benchmarks"
 PAGE = (BENCHMARKS / "README.md").read_text(encoding="utf-8")
 SPECS = sorted(BENCHMARKS.glob("*.toml"))
 
@@ -28,6 +29,14 @@ def test_options_on_the_page_exist():
     for name, options in re.findall(r"`python benchmarks/(\w+\.py)([^`]*)`", PAGE):
         text = (BENCHMARKS / name).read_text(encoding="utf-8")
         assert [option for option in re.findall(r"--[a-z]+", options) if f'"{option}"' not in text] == []
+
+
+def test_benchmarks_that_other_pages_name_exist():
+    pages = [ROOT / "README.md", *(path for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.parts)]
+    text = "".join(page.read_text(encoding="utf-8") for page in pages)
+    named = set(re.findall(r"benchmarks/(\w+\.(?:py|toml))", text))
+    assert named
+    assert [name for name in sorted(named) if not (BENCHMARKS / name).exists()] == []
 
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda path: path.name)

@@ -34,27 +34,37 @@ class Node(Arm):
 
 
 class Dag:
-    """Nodes by sentential form; every parent in the DAG is joined to its children, whichever came first."""
+    """One node per sentential form; every parent in the DAG is joined to its children, whichever came first."""
 
     def __init__(self, grammar: BoundGrammar) -> None:
         self.grammar = grammar
-        self.nodes: dict[SententialForm, Node] = {}
+        self.nodes: list[Node] = []
+        self.by_form: dict[SententialForm, Node] = {}
         self.edges = 0
         self._absent: dict[SententialForm, list[tuple[Node, int]]] = {}
         self.root = self.add(grammar.start())
 
+    def child(self, parent: Node, production: int, position: int | None = None) -> Node:
+        """The node after a production at a position (default: leftmost), which may have been there before."""
+        form = self.grammar.apply(parent.form, production, position)
+        return self.by_form.get(form) or self.add(form)
+
     def add(self, form: SententialForm) -> Node:
         """A new node, joined to all its parents and children in the DAG."""
-        node = Node(form, len(self.nodes))
-        self.nodes[form] = node
+        node = self.by_form[form] = self._new(form)
         for child, production in self._absent.pop(form, ()):
             self._join(node, child, production)
         for above, production in self.grammar.parents(form):
-            parent = self.nodes.get(above)
+            parent = self.by_form.get(above)
             if parent is None:
                 self._absent.setdefault(above, []).append((node, production))
             else:
                 self._join(parent, node, production)
+        return node
+
+    def _new(self, form: SententialForm) -> Node:
+        node = Node(form, len(self.nodes))
+        self.nodes.append(node)
         return node
 
     def _join(self, parent: Node, child: Node, production: int) -> None:
@@ -72,7 +82,7 @@ class Dag:
         pending = [form for above in reached for form in below[above]]
         while pending:
             form = pending.pop()
-            if form not in self.nodes:
+            if form not in self.by_form:
                 self.add(form)
                 pending.extend(below[form])
 
@@ -91,7 +101,7 @@ class Dag:
                         below[parent].append(form)
                     elif len(below) <= most:
                         below[parent] = [form]
-                        (reached if parent in self.nodes else above).append(parent)
+                        (reached if parent in self.by_form else above).append(parent)
             layer = above
         return below, reached
 
@@ -104,6 +114,16 @@ class Dag:
             pending.extend(parent for parent in done.parents if not parent.closed and _exhausted(parent))
 
 
+class Tree(Dag):
+    """A search tree in the place of the DAG: every way to a form has a node of its own."""
+
+    def child(self, parent: Node, production: int, position: int | None = None) -> Node:
+        """A new node below the parent."""
+        node = self._new(self.grammar.apply(parent.form, production, position))
+        self._join(parent, node, production)
+        return node
+
+
 def ancestors(nodes: Iterable[Node]) -> list[Node]:
     """The nodes and all their ancestors, each once, nearest first."""
     found = {node.number: node for node in nodes}
@@ -114,6 +134,20 @@ def ancestors(nodes: Iterable[Node]) -> list[Node]:
                 found[parent.number] = parent
                 order.append(parent)
     return order
+
+
+def levels(root: Node) -> list[list[Node]]:
+    """The nodes that the root leads to, by the fewest productions it takes."""
+    met = {root.number}
+    found, layer = [], [root]
+    while layer:
+        found.append(layer)
+        below: list[Node] = []
+        for node in layer:
+            below.extend(child for child, _ in node.children.values() if child.number not in met)
+            met.update(node.children)
+        layer = list(dict.fromkeys(below))
+    return found
 
 
 def _exhausted(node: Node) -> bool:

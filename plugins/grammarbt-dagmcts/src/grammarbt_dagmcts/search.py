@@ -21,6 +21,7 @@ from grammarbt.search import (
     search_any_grammar,
 )
 from grammarbt_dagmcts.dag import Dag
+from grammarbt_dagmcts.mcdags import McdagsSearch
 from grammarbt_dagmcts.paper import PaperSearch
 from grammarbt_dagmcts.parameters import DagMctsParameters
 from grammarbt_dagmcts.trace import write_graphml
@@ -51,9 +52,9 @@ class DagMcts(BatchSearcher):
 
 def choose_strategy(context: SearchContext, parameters: DagMctsParameters) -> tuple[Strategy, Traced | None]:
     """The preset asked for, as it suits the language; and its DAGs, if it has any."""
-    if parameters.preset == "paper":
-        paper = PaperSearch(context, parameters)
-        return paper, lambda: (paper.grammar, [paper.dag])
+    if parameters.preset != "default":
+        published = (PaperSearch if parameters.preset == "paper" else McdagsSearch)(context, parameters)
+        return published, lambda: (published.search.grammar, [published.search.dag])
     lists = RootList(context.grammar)
     if not lists.fits(context.rng):
         return search_any_grammar(context, parameters), None

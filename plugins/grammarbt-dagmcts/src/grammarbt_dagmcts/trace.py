@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from grammarbt.errors import SearcherError
-from grammarbt.grammar import BoundGrammar, SententialForm
-from grammarbt.search import Arm, BlockDag
-from grammarbt_dagmcts.dag import Dag
+from grammarbt.grammar import BoundGrammar
+from grammarbt.search import BlockDag, BlockNode
+from grammarbt_dagmcts.dag import Dag, Node
 
 if TYPE_CHECKING:
     import networkx as nx
 
-Edges: TypeAlias = Iterator[tuple[SententialForm, SententialForm, int]]
+Vertex: TypeAlias = Node | BlockNode
+
+
+def file_of_restart(path: Path, number: int) -> Path:
+    """Where the DAG goes that a restart ended: for `dag.graphml` and the second restart, `dag-2.graphml`."""
+    return path.with_stem(f"{path.stem}-{number}")
 
 
 def write_graphml(path: Path, grammar: BoundGrammar, dags: Iterable[Dag | BlockDag]) -> None:
@@ -30,6 +35,7 @@ def write_graphml(path: Path, grammar: BoundGrammar, dags: Iterable[Dag | BlockD
         _add(graph, grammar, dag)
     for node, parents in graph.in_degree():
         graph.nodes[node]["parents"] = parents
+    graph.graph["transpositions"] = sum(parents > 1 for _, parents in graph.in_degree())
     try:
         nx.write_graphml(graph, path)
     except OSError as error:
@@ -39,22 +45,18 @@ def write_graphml(path: Path, grammar: BoundGrammar, dags: Iterable[Dag | BlockD
 
 
 def _add(graph: nx.MultiDiGraph[int], grammar: BoundGrammar, dag: Dag | BlockDag) -> None:
-    first = graph.number_of_nodes()
-    numbers = {form: number for number, form in enumerate(dag.nodes, first)}
-    for form, arm in dag.nodes.items():
-        graph.add_node(numbers[form], form=grammar.text(form), **_earned(arm))
-    for parent, child, production in _edges(dag):
-        graph.add_edge(numbers[parent], numbers[child], production=grammar.production_text(production))
+    vertices: Sequence[Vertex] = dag.nodes if isinstance(dag, Dag) else tuple(dag.nodes.values())
+    numbers = {vertex: number for number, vertex in enumerate(vertices, graph.number_of_nodes())}
+    for vertex, number in numbers.items():
+        mean = vertex.mean if vertex.visits else 0.0
+        graph.add_node(number, form=grammar.text(vertex.form), visits=vertex.visits, mean=mean)
+    for vertex in vertices:
+        for child, production in _edges(vertex):
+            graph.add_edge(numbers[vertex], numbers[child], production=grammar.production_text(production))
 
 
-def _earned(arm: Arm) -> dict[str, float | int]:
-    return {"visits": arm.visits, "mean": arm.mean if arm.visits else 0.0}
-
-
-def _edges(dag: Dag | BlockDag) -> Edges:
-    if isinstance(dag, Dag):
-        for node in dag.nodes.values():
-            yield from ((node.form, child.form, production) for child, production in node.children.values())
+def _edges(vertex: Vertex) -> Iterator[tuple[Vertex, int]]:
+    if isinstance(vertex, Node):
+        yield from vertex.children.values()
     else:
-        for partial in dag.nodes.values():
-            yield from ((partial.form, child.form, production) for production, child, _ in partial.children or ())
+        yield from ((child, production) for production, child, _ in vertex.children or ())

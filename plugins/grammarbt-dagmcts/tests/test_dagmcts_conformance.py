@@ -7,3 +7,7 @@ class TestDagMcts(SearcherConformance):
 
 class TestPaperPreset(SearcherConformance):
     subject = SearcherSubject("dagmcts", {"preset": "paper"}, budget=100)
+
+
+class TestMcdagsPreset(SearcherConformance):
+    subject = SearcherSubject("dagmcts", {"preset": "mcdags", "round_length": 5, "search_rounds": 2}, budget=100)

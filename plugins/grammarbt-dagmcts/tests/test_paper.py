@@ -9,25 +9,25 @@ from grammarbt_dagmcts.parameters import DagMctsParameters
 @pytest.fixture
 def grown(search):
     searcher, _ = search(200, preset="paper", restart_every=0)
-    return searcher.strategy
+    return searcher.strategy.search
 
 
 def test_every_parent_in_the_dag_is_joined(grown, grammar):
-    nodes = grown.dag.nodes
-    for node in nodes.values():
-        expected = {nodes[form].number for form, _ in grammar.parents(node.form) if form in nodes}
+    known = grown.dag.by_form
+    for node in grown.dag.nodes:
+        expected = {known[form].number for form, _ in grammar.parents(node.form) if form in known}
         assert {parent.number for parent in node.parents} == expected
 
 
 def test_every_edge_is_one_production(grown, grammar):
-    for node in grown.dag.nodes.values():
+    for node in grown.dag.nodes:
         for child, production in node.children.values():
             position = position_of(grammar, node.form, production, child.form)
             assert grammar.apply(node.form, production, position) == child.form
 
 
 def test_some_nodes_have_several_parents(grown):
-    assert max(len(node.parents) for node in grown.dag.nodes.values()) > 1
+    assert max(len(node.parents) for node in grown.dag.nodes) > 1
 
 
 def test_each_ancestor_is_credited_once_per_roll_out(context, answer):
@@ -35,12 +35,12 @@ def test_each_ancestor_is_credited_once_per_roll_out(context, answer):
     batches = strategy.batches(lambda: 1)
     proposals = next(batches)
     for _ in range(80):
-        nodes = list(strategy.dag.nodes.values())
+        nodes = list(strategy.search.dag.nodes)
         before = [(node.visits, list(node.parents)) for node in nodes]
         proposals = batches.send([answer(proposal) for proposal in proposals])
         credited = {node.number for node, (visits, _) in zip(nodes, before, strict=True) if node.visits > visits}
         assert all(node.visits <= visits + 1 for node, (visits, _) in zip(nodes, before, strict=True))
-        assert strategy.dag.root.number in credited
+        assert strategy.search.dag.root.number in credited
         for node, (_, parents) in zip(nodes, before, strict=True):
             assert node.number not in credited or credited >= {parent.number for parent in parents}
 
@@ -53,7 +53,7 @@ def test_linked_forms_lie_within_k_inverse_productions(grammar):
     node = dag.add(form)
     dag.link_ancestors(node, 6, 10_000)
     assert dag.root in ancestors([node])
-    for other in dag.nodes.values():
+    for other in dag.nodes:
         assert other is node or node.form in _below(grammar, other.form, 6)
 
 
@@ -88,7 +88,7 @@ def test_ancestor_links_join_more_nodes(search):
 
 def test_good_sub_trees_become_productions_at_a_restart(search, grammar):
     searcher, _ = search(250, preset="paper", restart_every=100, macros=4)
-    extended = searcher.strategy.grammar
+    extended = searcher.strategy.search.grammar
     assert searcher.metrics()["restarts"] == 2
     extra = extended.productions[len(grammar.productions) :]
     assert len(extra) == searcher.metrics()["macros"] == 4
@@ -98,7 +98,7 @@ def test_good_sub_trees_become_productions_at_a_restart(search, grammar):
 def test_without_macros_a_restart_keeps_the_grammar(search, grammar):
     searcher, _ = search(250, preset="paper", restart_every=100, macros=0)
     assert searcher.metrics()["restarts"] == 2
-    assert searcher.strategy.grammar.productions == grammar.productions
+    assert searcher.strategy.search.grammar.productions == grammar.productions
 
 
 def test_each_roll_out_has_a_scenario_of_its_own(search):
@@ -130,4 +130,4 @@ def test_blocks_of_a_derivation_are_the_children_of_its_tree(grammar, context):
 
 
 def test_unset_c_is_one(context):
-    assert PaperSearch(context(), DagMctsParameters(preset="paper")).bandit.c == 1.0
+    assert PaperSearch(context(), DagMctsParameters(preset="paper")).search.bandit.c == 1.0

@@ -10,7 +10,8 @@ from grammarbt.search import Evaluation
 from grammarbt_dagmcts.parameters import DagMctsParameters
 from grammarbt_dagmcts.search import DagMcts
 
-PRESETS = ("default", "paper")
+PUBLISHED = ("paper", "mcdags")
+PRESETS = ("default", *PUBLISHED)
 
 
 @pytest.mark.parametrize("preset", PRESETS)
@@ -39,8 +40,9 @@ def test_default_finds_the_goal(search, goal, batch):
     assert behave_alike(searcher.candidates(1)[0], goal)
 
 
-def test_paper_finds_more_than_it_tried_first(search, goal):
-    searcher, proposals = search(1_500, preset="paper")
+@pytest.mark.parametrize("preset", PUBLISHED)
+def test_the_published_methods_find_more_than_they_tried_first(search, goal, preset):
+    searcher, proposals = search(1_500, preset=preset)
     assert parts_of(goal, searcher.candidates(1)[0]) > parts_of(goal, proposals[0].tree)
 
 
@@ -64,7 +66,7 @@ def test_failed_evaluations_do_not_stop_the_search(search, preset):
 
 
 @pytest.mark.parametrize("preset", PRESETS)
-@pytest.mark.parametrize("bandit", ["ucb1-tuned", "ucb1-normal2", "threshold-ascent"])
+@pytest.mark.parametrize("bandit", ["ucb1-tuned", "ucb1-normal2", "ucb1-uniform", "threshold-ascent"])
 def test_every_bandit_rule_searches(search, preset, bandit):
     searcher, _ = search(300, preset=preset, bandit=bandit)
     assert searcher.metrics()["nodes"] > 1
@@ -102,21 +104,23 @@ def test_trees_that_are_no_lists_are_found_too(context, vocabulary):
     assert searcher.candidates(1)[0] == wanted
 
 
-def test_paper_begins_from_the_start_tree(context, goal, grammar):
-    searcher = DagMcts(context(start=goal), DagMctsParameters(preset="paper"))
+@pytest.mark.parametrize("preset", PUBLISHED)
+def test_the_published_methods_begin_from_the_start_tree(context, goal, grammar, preset):
+    searcher = DagMcts(context(start=goal), DagMctsParameters(preset=preset))
     (first,) = searcher.ask(1)
     assert first.tree == goal
     searcher.tell([Evaluation(first, (5.0,))])
-    (word,) = (node for node in searcher.strategy.dag.nodes.values() if grammar.is_word(node.form))
+    (word,) = (node for node in searcher.strategy.search.dag.nodes if grammar.is_word(node.form))
     assert grammar.tree(word.form) == goal
     assert word.closed
-    assert word.visits == searcher.strategy.dag.root.visits == 1
+    assert word.visits == searcher.strategy.search.dag.root.visits == 1
 
 
-def test_a_finished_language_leaves_nothing_to_ask(context, vocabulary):
+@pytest.mark.parametrize("preset", PUBLISHED)
+def test_a_finished_language_leaves_nothing_to_ask(context, vocabulary, preset):
     text = '%declare ACTION CONDITION\nstart: "?" "(" ACTION ACTION ")"\n'
     pairs = bind(load_grammar(Source("pairs.grammar", text)), vocabulary)
-    searcher = DagMcts(context(grammar=pairs), DagMctsParameters(preset="paper"))
+    searcher = DagMcts(context(grammar=pairs), DagMctsParameters(preset=preset))
     trees = []
     while asked := searcher.ask(3):
         trees += [proposal.tree for proposal in asked]

@@ -7,10 +7,10 @@ from grammarbt_dagmcts.parameters import DagMctsParameters
 from grammarbt_dagmcts.search import DagMcts
 
 
-@pytest.mark.parametrize("preset", ["default", "paper"])
+@pytest.mark.parametrize("preset", ["default", "paper", "mcdags"])
 def test_the_trace_holds_every_node_with_what_it_earned(search, tmp_path, preset):
     path = tmp_path / "dag.graphml"
-    searcher, _ = search(150, preset=preset, trace=str(path))
+    searcher, _ = search(150, preset=preset, restarts=False, trace=str(path))
     searcher.candidates(1)
     graph = nx.read_graphml(path)
     assert len(graph) == searcher.metrics()["nodes"]
@@ -27,6 +27,24 @@ def test_the_papers_trace_shows_transpositions(search, tmp_path):
     graph = nx.read_graphml(path)
     assert graph.number_of_edges() == searcher.metrics()["edges"]
     assert max(dict(graph.in_degree()).values()) > 1
+    assert graph.graph["transpositions"] == sum(parents > 1 for _, parents in graph.nodes(data="parents"))
+
+
+@pytest.mark.parametrize(
+    "changes", [{"preset": "paper", "restart_every": 60}, {"preset": "mcdags", "round_length": 60}]
+)
+def test_the_dag_that_a_restart_ends_has_a_trace_of_its_own(search, tmp_path, changes):
+    path = tmp_path / "dag.graphml"
+    searcher, _ = search(150, trace=str(path), **changes)
+    searcher.candidates(1)
+    assert searcher.metrics()["restarts"] == 2
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["dag-1.graphml", "dag-2.graphml", "dag.graphml"]
+    graphs = [nx.read_graphml(tmp_path / name) for name in ("dag-1.graphml", "dag-2.graphml", "dag.graphml")]
+    assert [visits_of_root(graph) for graph in graphs] == [60, 60, 30]
+
+
+def visits_of_root(graph):
+    return graph.nodes[next(node for node, parents in graph.nodes(data="parents") if parents == 0)]["visits"]
 
 
 def test_a_trace_into_no_folder_is_an_error_before_the_search(context, tmp_path):

@@ -37,7 +37,7 @@ def test_without_annealing_every_round_searches(search):
     without, second = search(200, **MCDAGS, annealing=False)
     assert full.metrics()["annealed"] > 0
     assert without.metrics()["annealed"] == 0
-    assert without.metrics()["restarts"] == without.metrics()["rounds"] > full.metrics()["restarts"]
+    assert without.metrics()["restarts"] > full.metrics()["restarts"]
     assert first[:60] == second[:60]
     assert first != second
 

@@ -15,6 +15,9 @@ from grammarbt_qlearning.parameters import QLearningParameters, View
 REPEATS = 1_000
 """Derivations in a row that were simulated before, after which the search is over."""
 
+LONGEST = 400
+"""Steps of a derivation after which it takes the lowest way out: values learned so far may say to go on for ever."""
+
 Decision: TypeAlias = "tuple[Values, int]"
 """A state's values, and the production chosen there."""
 
@@ -86,6 +89,8 @@ class ValueSearch:
             if len(state.productions) > 1:
                 values = self.table.setdefault(_seen(self.parameters.view, state, here), Values())
                 production = self._choice(state, values, chance) if given is None else given[len(walk.derivation)]
+                if given is None and len(walk.derivation) > LONGEST:
+                    production = min(state.productions, key=self.states.heights.__getitem__)
                 decisions.append((values, production))
             parts = len(self.states.parts[production])
             pending += [Pending(production, place, here.depth + 1) for place in range(parts - 1, -1, -1)]

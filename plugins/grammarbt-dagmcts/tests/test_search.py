@@ -120,7 +120,7 @@ def test_the_published_methods_begin_from_the_start_tree(context, goal, grammar,
 def test_a_finished_language_leaves_nothing_to_ask(context, vocabulary, preset):
     text = '%declare ACTION CONDITION\nstart: "?" "(" ACTION ACTION ")"\n'
     pairs = bind(load_grammar(Source("pairs.grammar", text)), vocabulary)
-    searcher = DagMcts(context(grammar=pairs), DagMctsParameters(preset=preset))
+    searcher = DagMcts(context(grammar=pairs), DagMctsParameters(preset=preset, round_length=1_000))
     trees = []
     while asked := searcher.ask(3):
         trees += [proposal.tree for proposal in asked]

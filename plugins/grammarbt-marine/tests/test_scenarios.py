@@ -17,7 +17,7 @@ MANUAL = compile_policy(parse(REFERENCES[0].tree), VOCABULARY.index)
 IN_ANOTHER_PROCESS = """
 import numpy as np
 from grammarbt.bt import compile_policy, parse
-from grammarbt_marine.references import REFERENCES
+from grammarbt_marine.domain import Marine
 marine = Marine()
 policy = compile_policy(parse(marine.references[0].tree), marine.vocabulary.index)
 print(marine.simulate(policy, np.arange(50)).returns.tolist())

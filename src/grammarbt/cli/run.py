@@ -52,11 +52,11 @@ def command(spec: str | None, settings: tuple[str, ...], as_json: bool, quiet: b
         preset = "paper"
     """  # noqa: D301 - \b is click's mark for lines to leave alone
     asked = (RunSpec() if spec is None else read_spec(Path(spec))).overridden(options, settings_of(settings))
-    if asked.workers > asked.batch:
-        warn(f"with --batch {asked.batch}, {asked.workers} workers search no faster than {asked.batch}")
     registry = open_registry()
     display = make_display(registry.host, quiet=quiet)
     setup = prepare(asked, registry)
+    if asked.workers > asked.batch:
+        warn(f"with --batch {asked.batch}, {asked.workers} workers search no faster than {asked.batch}")
     with interruptible(display):
         result = execute(setup, display)
     emit(result, as_json=as_json)

@@ -34,12 +34,13 @@ class McdagsSearch:
         self.round_length = parameters.round_length or max(1, min(LONGEST_ROUND, context.budget // ROUNDS))
         self.link_every = parameters.link_every or max(1, self.round_length // LINKINGS)
         self.search = DagSearch(context, parameters, longest=LONGEST_ROLL_OUT, link_new=False, only_unvisited=True)
-        self.annealing = self._annealing(context) if parameters.annealing else None
+        self.annealing = self._annealing(context)
         self.rounds = self.annealed = self._searched = 0
 
     def _annealing(self, context: SearchContext) -> ListAnnealing | None:
         lists = RootList(context.grammar)
-        if not lists.fits(context.rng):
+        fits = lists.fits(context.rng)  # looked at even if nothing is annealed, so that both draw the same numbers
+        if not (fits and self.parameters.annealing):
             return None
         return ListAnnealing(lists, self.search.experience, self.search.scenarios, context.rng, self.parameters)
 

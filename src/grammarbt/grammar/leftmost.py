@@ -28,7 +28,7 @@ MAX_KEPT = 4_000_000
 MAX_UNFINISHED = 2_000
 """Symbols that a state of a random walk may have, apart from those of one production; trees seldom need a tenth."""
 
-MAX_STEPS = 5_000
+MAX_STEPS = 3_500
 """Steps of a random walk; a tree of a thousand nodes takes two or three thousand."""
 
 DRAWS = 32

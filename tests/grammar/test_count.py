@@ -199,3 +199,16 @@ def test_an_infinite_language_is_a_mistake_with_a_hint(capsys, tmp_path):
         assert "infinitely many" in error
         assert "%limit nodes" in error
     assert main(["grammar", "sample", str(file), "--domain", "marine", "--uniform", "choices"]) == 0
+
+
+def test_groups_that_only_the_whole_trees_limit_keeps_finite_do_not_hide_the_whole(capsys, tmp_path):
+    (tmp_path / "x.grammar").write_text(
+        "%declare ACTION CONDITION\n%forall g in GROUP\n%limit nodes 8\n"
+        'start: "?" "(" each each+ ")"\neach: part{g}\npart{g}: "→" "(" CONDITION{g} ACTION{g}+ ")"\n',
+        encoding="utf-8",
+    )
+    assert main(["grammar", "count", str(tmp_path / "x.grammar"), "--domain", "marine", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["groups"]["g1"]["words"] is None
+    assert main(["grammar", "check", str(tmp_path / "x.grammar"), "--domain", "marine", "--json"]) == 0
+    assert found["words"] == json.loads(capsys.readouterr().out)["summary"]["words"] > 0

@@ -67,7 +67,8 @@ def count(file: str, domain: DomainOptions, as_json: bool) -> None:
     """Count derivations, distinct trees and distinct behaviours of FILE, exactly.
 
     Behaviours are counted where there are at most 200,000 trees, as that takes listing them; derivations and trees
-    unless some hundred thousand steps do not suffice. What passes these limits is `too many`, in JSON null.
+    unless some hundred thousand steps do not suffice. What passes these limits is `too many`, in JSON null; so is a
+    group that only the limits of the whole tree keep finite.
     """
     from grammarbt.grammar import Counter, Language  # noqa: PLC0415 - brings lark, which `--help` does not need
 

@@ -10,7 +10,7 @@ from attrs import frozen
 from grammarbt.bt.canonical import canonical_key
 from grammarbt.grammar.automaton import Language
 from grammarbt.grammar.leftmost import Word
-from grammarbt.grammar.paths import Paths, TooLargeError
+from grammarbt.grammar.paths import InfiniteLanguageError, Paths, TooLargeError
 
 MAX_LISTED = 200_000
 """Words up to which behaviours are counted; that takes listing them."""
@@ -46,7 +46,7 @@ class Counter:
         return Count(derivations, words, _within_limits(self.behaviours, symbol) if listed else None)
 
     def groups(self) -> dict[str, Count]:
-        """One entry per group: what its block derives; the block's name where a group has several."""
+        """One entry per group: what its block derives by itself; the block's name where a group has several."""
         bound = self.language.bound
         found: dict[str, Count] = {}
         for group in bound.vocabulary.groups if bound.blocks else ():
@@ -55,8 +55,15 @@ class Counter:
                 found[group.name] = Count(0, 0, 0)
             for block in own:
                 name = group.name if len(own) == 1 else bound.nonterminal_name(block)
-                found[name] = self.count(block)
+                found[name] = self._part(block)
         return found
+
+    def _part(self, block: int) -> Count:
+        """A block's size; it may have no end of its own where only the whole tree is limited."""
+        try:
+            return self.count(block)
+        except InfiniteLanguageError:
+            return Count(None, None, None)
 
     def behaviours(self, symbol: int) -> int:
         """Distinct canonical forms among the words, by listing them all."""

@@ -8,22 +8,21 @@ from __future__ import annotations
 import multiprocessing
 import os
 import re
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from attrs import field, fields, frozen
+from attrs import field, frozen
 from attrs.validators import ge
 
-from grammarbt.errors import GrammarBTError, ParameterError, RunError, did_you_mean
+from grammarbt.errors import GrammarBTError, ParameterError
 from grammarbt.run.execute import execute
 from grammarbt.run.folder import RunFolder
 from grammarbt.run.journal import iterate_journal
 from grammarbt.run.resume import Changes, resume
 from grammarbt.run.setup import prepare
-from grammarbt.run.spec import RunSpec
+from grammarbt.run.spec import RunSpec, read_toml
 from grammarbt.run.watch import Watcher
 
 if TYPE_CHECKING:
@@ -124,16 +123,7 @@ def read_bench(path: Path) -> BenchSpec:
         RunError: the file cannot be read, or is not TOML.
         ParameterError: a field is unknown or has a wrong value.
     """
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise RunError(f"cannot read {str(path)!r}: {error.strerror}", "check the path") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise RunError(f"{path} is not TOML: {error}", "see 'grammarbt bench --help' for an example") from None
-    known = [attribute.name for attribute in fields(BenchSpec)]
-    for name in content:
-        if name not in known:
-            raise ParameterError(f"{path} has an unknown field {name!r}", did_you_mean(name, known))
+    content = read_toml(path, BenchSpec, "grammarbt bench")
     try:
         return BenchSpec(**{"out": str(path.with_suffix("")), **content})
     except (TypeError, ValueError) as error:

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from math import inf
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
-from attrs import Attribute, asdict, evolve, field, fields, frozen
+from attrs import Attribute, AttrsInstance, asdict, evolve, field, fields, frozen
 from attrs.validators import optional
 
 from grammarbt.domain import MAX_SEED
@@ -148,20 +148,31 @@ def read_spec(path: Path) -> RunSpec:
         RunError: the file cannot be read, or is not TOML.
         ParameterError: a field is unknown or has a wrong value.
     """
+    content = read_toml(path, RunSpec, "grammarbt run")
+    try:
+        return RunSpec(**content)
+    except ParameterError as error:
+        raise ParameterError(f"{path}: {error.message}", error.hint) from None
+
+
+def read_toml(path: Path, spec: type[AttrsInstance], verb: str) -> dict[str, Any]:
+    """The content of a TOML file, with no field that the attrs class `spec` lacks.
+
+    Raises:
+        RunError: the file cannot be read, or is not TOML; the verb's help has an example.
+        ParameterError: a field is unknown.
+    """
     try:
         content = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise RunError(f"cannot read {str(path)!r}: {error.strerror}", "check the path") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise RunError(f"{path} is not TOML: {error}", "see 'grammarbt run --help' for an example") from None
-    known = [attribute.name for attribute in fields(RunSpec)]
+        raise RunError(f"{path} is not TOML: {error}", f"see '{verb} --help' for an example") from None
+    known = [attribute.name for attribute in fields(spec)]
     for name in content:
         if name not in known:
             raise ParameterError(f"{path} has an unknown field {name!r}", did_you_mean(name, known))
-    try:
-        return RunSpec(**content)
-    except ParameterError as error:
-        raise ParameterError(f"{path}: {error.message}", error.hint) from None
+    return content
 
 
 def settings_of(texts: Iterable[str], parts: Sequence[Part] = PARTS) -> dict[Part, dict[str, object]]:

@@ -32,47 +32,55 @@ class DecisionGraph:
         self.tests: dict[int, str] = {}
         self._most_nodes = most_nodes
         self._known: dict[GraphNode, int] = {}
-        self._tested: dict[tuple[str, int, int], int] = {}
+        self._sorted: dict[tuple[str, int, int], int] = {}
 
     def call(self, leaf: str, success: int, failure: int, running: int) -> int:
         """The node that ticks `leaf`."""
-        key = (leaf, success, failure, running)
-        at = self._known.get(key)
-        if at is None:
-            at = self._known[key] = len(self.nodes)
-            if at >= self._most_nodes:
-                raise TooLargeError
-            self.nodes.append(key)
-        return at
+        node = (leaf, success, failure, running)
+        at = self._known.get(node)
+        return self._add(node) if at is None else at
 
     def test(self, condition: str, true: int, false: int) -> int:
         """The node that behaves like `true` where the condition holds and like `false` where not."""
         if true == false:
             return true
-        key = (condition, true, false)
-        at = self._tested.get(key)
+        in_true, in_false = self.tests.get(true), self.tests.get(false)
+        if (in_true is not None and in_true <= condition) or (in_false is not None and in_false <= condition):
+            return self._ordered(condition, true, false)
+        node = (condition, true, false, RUNNING)
+        at = self._known.get(node)
         if at is None:
-            at = self._tested[key] = self._test(condition, true, false)
+            at = self._add(node)
+            self.tests[at] = condition
         return at
 
-    def _test(self, condition: str, true: int, false: int) -> int:
-        tests = self.tests
-        in_true, in_false = tests.get(true), tests.get(false)
-        first = condition
-        if in_true is not None and in_true < first:
-            first = in_true
-        if in_false is not None and in_false < first:
-            first = in_false
-        if first == condition:
-            high = self.nodes[true][1] if in_true == first else true
-            low = self.nodes[false][2] if in_false == first else false
-        else:
-            true_high, true_low = self.nodes[true][1:3] if in_true == first else (true, true)
-            false_high, false_low = self.nodes[false][1:3] if in_false == first else (false, false)
-            high = self.test(condition, true_high, false_high)
-            low = self.test(condition, true_low, false_low)
-        if high == low:
-            return high
-        at = self.call(first, high, low, RUNNING)
-        tests[at] = first
+    def _add(self, node: GraphNode) -> int:
+        at = self._known[node] = len(self.nodes)
+        if at >= self._most_nodes:
+            raise TooLargeError
+        self.nodes.append(node)
         return at
+
+    def _ordered(self, condition: str, true: int, false: int) -> int:
+        """A test where what follows asks conditions that come before it, or asks it again."""
+        key = (condition, true, false)
+        at = self._sorted.get(key)
+        if at is None:
+            at = self._sorted[key] = self._sort(condition, true, false)
+        return at
+
+    def _sort(self, condition: str, true: int, false: int) -> int:
+        first = min(condition, self.tests.get(true, condition), self.tests.get(false, condition))
+        true_high, true_low = self._answers(first, true)
+        false_high, false_low = self._answers(first, false)
+        if first == condition:
+            return self.test(condition, true_high, false_low)
+        high = self.test(condition, true_high, false_high)
+        return self.test(first, high, self.test(condition, true_low, false_low))
+
+    def _answers(self, condition: str, node: int) -> tuple[int, int]:
+        """Where a node leads when the condition holds, and where when not."""
+        if self.tests.get(node) != condition:
+            return node, node
+        _, true, false, _ = self.nodes[node]
+        return true, false

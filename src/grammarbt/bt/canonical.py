@@ -7,14 +7,11 @@ exactly when no sequence of condition values and action answers tells the trees 
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from grammarbt.bt.bdd import DecisionGraph, GraphNode, TooLargeError
-from grammarbt.bt.compiler import FAILURE, RUNNING, SUCCESS, Compiler, visit_order
-from grammarbt.bt.model import BehaviorTree, Condition, Leaf
-from grammarbt.bt.notation import format_leaf
-from grammarbt.errors import DomainError
+from grammarbt.bt.compiler import FAILURE, MAX_STEPS, RUNNING, SUCCESS, compile_steps
+from grammarbt.bt.model import Action, BehaviorTree, Condition, Leaf
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,11 +19,8 @@ if TYPE_CHECKING:
 MAX_NODES = 1_000
 """Nodes of the largest reduced graph; conditions asked in unlucky orders can need exponentially many."""
 
-MAX_LEVEL_ONE_NODES = 100_000
 MAX_CONDITIONS = 200
 """Distinct conditions up to which graphs are reduced; reducing goes as deep into the stack as there are conditions."""
-
-_text = lru_cache(maxsize=65_536)(format_leaf)
 
 
 def all_pure(_: Condition) -> bool:
@@ -47,14 +41,14 @@ def canonical_key(tree: BehaviorTree, is_pure: Callable[[Condition], bool] = all
         is_pure: whether a condition draws no randomness and changes only when an action runs.
 
     Raises:
-        DomainError: nested parallel nodes need more than `MAX_LEVEL_ONE_NODES` nodes.
+        DomainError: nested parallel nodes need more than `MAX_STEPS` steps.
     """
     builder = GraphBuilder(is_pure, MAX_NODES)
     try:
         start = builder.start(tree)
     except TooLargeError:
-        builder = GraphBuilder(none_pure, MAX_LEVEL_ONE_NODES)
-        start = _level_one(builder, tree)
+        builder = GraphBuilder(none_pure, MAX_STEPS)
+        start = builder.start(tree)
     return _serialise(builder.graph.nodes, start)
 
 
@@ -63,43 +57,57 @@ def behave_alike(one: BehaviorTree, other: BehaviorTree, is_pure: Callable[[Cond
     return canonical_key(one, is_pure) == canonical_key(other, is_pure)
 
 
-class GraphBuilder(Compiler):
-    """Compiles trees into one decision graph, so that trees that behave alike start at the same node."""
+class GraphBuilder:
+    """Compiles trees into one decision graph, so that trees that behave alike start at the same node.
+
+    Args:
+        is_pure: whether a condition draws no randomness and changes only when an action runs.
+        most_nodes: of the graph; beyond them `start` raises `TooLargeError`.
+
+    Attributes:
+        graph: of the trees so far.
+    """
 
     def __init__(self, is_pure: Callable[[Condition], bool], most_nodes: int) -> None:
-        super().__init__()
         self.graph = DecisionGraph(most_nodes)
         self._is_pure = is_pure
         self._pure: set[str] = set()
 
-    def leaf(self, leaf: Leaf, success: int, failure: int, running: int) -> int:
-        """A test for a pure condition, a call for everything else."""
-        text = _text(leaf)
-        if not isinstance(leaf, Condition):
-            return self.graph.call(text, success, failure, running)
-        if not self._is_pure(leaf):
-            return self.graph.call(text, success, failure, RUNNING)
-        self._pure.add(text)
-        if len(self._pure) > MAX_CONDITIONS:
-            raise TooLargeError
-        return self.graph.test(text, success, failure)
-
-
-def _level_one(builder: GraphBuilder, tree: BehaviorTree) -> int:
-    try:
-        return builder.start(tree)
-    except TooLargeError:
-        raise DomainError(
-            f"the tree's parallel nodes unroll to more than {MAX_LEVEL_ONE_NODES:,} steps", "nest fewer of them"
-        ) from None
+    def start(self, tree: BehaviorTree) -> int:
+        """The node at which a tick of the tree starts."""
+        steps = compile_steps(tree)
+        nodes = [0] * len(steps.steps) + [RUNNING, FAILURE, SUCCESS]  # at -3, -2 and -1, as steps name the ends
+        call, test, is_pure, pure = self.graph.call, self.graph.test, self._is_pure, self._pure
+        for at, (leaf, _, success, failure, running) in enumerate(steps.steps):
+            if isinstance(leaf, Action):
+                nodes[at] = call(leaf.text, nodes[success], nodes[failure], nodes[running])
+            elif is_pure(leaf):
+                pure.add(leaf.text)
+                if len(pure) > MAX_CONDITIONS:
+                    raise TooLargeError
+                nodes[at] = test(leaf.text, nodes[success], nodes[failure])
+            else:
+                nodes[at] = call(leaf.text, nodes[success], nodes[failure], RUNNING)
+        return nodes[steps.first]
 
 
 def _serialise(nodes: list[GraphNode], start: int) -> bytes:
-    """One line a node, in the order of first visit; names hold no control characters, so nothing is ambiguous."""
-    order = visit_order(nodes, start)
-    new = {**order, SUCCESS: "S", FAILURE: "F", RUNNING: "R"}
-    lines = [new[start]]
-    for at in order:
+    """A line for each node at the first visit, followed by what its answers lead to; its number from then on."""
+    names = {SUCCESS: "S", FAILURE: "F", RUNNING: "R"}
+    lines: list[str] = []
+    stack = [start]
+    while stack:
+        at = stack.pop()
+        name = names.get(at)
+        if name is not None:
+            lines.append(name)
+            continue
+        names[at] = str(len(names))
         text, success, failure, running = nodes[at]
-        lines.append(f"{text}\t{new[success]}\t{new[failure]}\t{new[running]}")
-    return "\n".join(map(str, lines)).encode()
+        if running == RUNNING:
+            lines.append(text)
+            stack += (failure, success)
+        else:
+            lines.append(f"{text}+")
+            stack += (running, failure, success)
+    return "\n".join(lines).encode()

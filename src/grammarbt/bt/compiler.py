@@ -6,62 +6,134 @@ before the leaf itself. Associativity, single children, double negation and De M
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+
+from attrs import frozen
 
 from grammarbt.bt.model import Action, BehaviorTree, Condition, Fallback, Leaf, Node, Not, Parallel, Sequence
+from grammarbt.errors import DomainError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence as AbstractSequence
+    from collections.abc import Callable, Mapping
 
 SUCCESS, FAILURE, RUNNING = -1, -2, -3
 """Ends of a tick, in the place of a next step."""
 
-_LEAF = (Action, Condition)
+MAX_STEPS = 100_000
+
+_RECENT = 16
+"""Trees whose steps are kept: a tree is asked for its key, and soon after for its policy."""
+
+Step: TypeAlias = tuple[Leaf, int, int, int, int]
+"""A leaf, its occurrence less the number of all leaves, and the steps that follow its success, failure and running."""
 
 
-class Compiler(ABC):
-    """Walks a tree from right to left; what a leaf becomes is up to the subclass.
+@frozen(eq=False)
+class Steps:
+    """A compiled tree.
 
     Attributes:
-        behind: minus the number of leaves from the present one to the tree's end; so a leaf's occurrence, once the
-            number of all leaves is known, is their sum.
+        steps: one for each leaf that a tick can reach and way of going on after it; each comes after all that it leads to.
+        first: where a tick starts.
+        occurrences: leaves of the tree.
+    """
+
+    steps: list[Step]
+    first: int
+    occurrences: int
+
+
+@lru_cache(maxsize=_RECENT)
+def compile_steps(tree: BehaviorTree) -> Steps:
+    """Compile a tree.
+
+    Raises:
+        DomainError: nested parallel nodes need more than `MAX_STEPS` steps.
+    """
+    compiler = _Compiler()
+    first = compiler.compile(tree, SUCCESS, FAILURE, RUNNING)
+    steps = Steps(compiler.steps, first, -compiler.behind)
+    return _reachable(steps) if compiler.copied else steps
+
+
+def _reachable(steps: Steps) -> Steps:
+    """Without what no tick reaches."""
+    reached = {steps.first}
+    for at in reversed(range(len(steps.steps))):
+        if at in reached:
+            reached.update(steps.steps[at][2:])
+    kept: list[Step] = []
+    new = {SUCCESS: SUCCESS, FAILURE: FAILURE, RUNNING: RUNNING}
+    for at, (leaf, behind, *after) in enumerate(steps.steps):
+        if at in reached:
+            new[at] = len(kept)
+            success, failure, running = (new[step] for step in after)
+            kept.append((leaf, behind, success, failure, running))
+    return Steps(kept, new[steps.first], steps.occurrences)
+
+
+class _Compiler:
+    """Walks a tree from right to left.
+
+    Attributes:
+        steps: so far.
+        behind: minus the number of leaves from the present one to the tree's end.
+        copied: whether there is a parallel node, of whose children copies are made.
     """
 
     def __init__(self) -> None:
+        self.steps: list[Step] = []
         self.behind = 0
+        self.copied = False
+        self._copying = False
+        self._known: dict[tuple[int, int, int, int], int] = {}
         self._unrolled: dict[tuple[int, int, int, int, int], tuple[int, int]] = {}
-
-    @abstractmethod
-    def leaf(self, leaf: Leaf, success: int, failure: int, running: int) -> int:
-        """The step that ticks `leaf` and goes on as told."""
-
-    def start(self, tree: BehaviorTree) -> int:
-        """The step at which a tick of the tree starts."""
-        return self.compile(tree, SUCCESS, FAILURE, RUNNING)
 
     def compile(self, node: Node, success: int, failure: int, running: int) -> int:
         """The step at which ticking `node` starts, when its answers lead to the given steps."""
-        if isinstance(node, _LEAF):
-            self.behind -= 1
-            return self.leaf(node, success, failure, running)
-        if isinstance(node, Sequence):
-            for child in reversed(node.children):
-                success = self.compile(child, success, failure, running)
-            return success
-        if isinstance(node, Fallback):
-            for child in reversed(node.children):
-                failure = self.compile(child, success, failure, running)
-            return failure
-        if isinstance(node, Not):
-            return self.compile(node.child, failure, success, running)
-        return self._parallel(node, success, failure, running)
+        return self._WAYS[type(node)](self, node, success, failure, running)
+
+    def _leaf(self, leaf: Leaf, success: int, failure: int, running: int) -> int:
+        self.behind -= 1
+        if self._copying:
+            return self._copy(leaf, success, failure, running)
+        self.steps.append((leaf, self.behind, success, failure, running))
+        return len(self.steps) - 1
+
+    def _copy(self, leaf: Leaf, success: int, failure: int, running: int) -> int:
+        """Children of parallel nodes meet the same continuations again and again."""
+        key = (self.behind, success, failure, running)
+        at = self._known.get(key)
+        if at is None:
+            at = self._known[key] = len(self.steps)
+            if at >= MAX_STEPS:
+                raise DomainError(
+                    f"the tree's parallel nodes unroll to more than {MAX_STEPS:,} steps", "nest fewer of them"
+                )
+            self.steps.append((leaf, *key))
+        return at
+
+    def _sequence(self, node: Sequence, success: int, failure: int, running: int) -> int:
+        for child in reversed(node.children):
+            success = self._WAYS[type(child)](self, child, success, failure, running)
+        return success
+
+    def _fallback(self, node: Fallback, success: int, failure: int, running: int) -> int:
+        for child in reversed(node.children):
+            failure = self._WAYS[type(child)](self, child, success, failure, running)
+        return failure
+
+    def _not(self, node: Not, success: int, failure: int, running: int) -> int:
+        return self.compile(node.child, failure, success, running)
 
     def _parallel(self, node: Parallel, success: int, failure: int, running: int) -> int:
-        """Nested parallels meet the same continuation again and again; unroll it once."""
+        """So do nested parallel nodes; each is unrolled once."""
         key = (id(node), self.behind, success, failure, running)  # the tree outlives the compiler, so ids stay
         if key not in self._unrolled:
+            outside, self._copying, self.copied = self._copying, True, True
             start = self._unroll(node, success, failure, running)
+            self._copying = outside
             self._unrolled[key] = (start, self.behind)
         start, self.behind = self._unrolled[key]
         return start
@@ -86,20 +158,11 @@ class Compiler(ABC):
             after = before
         return after[0, 0]
 
-
-def visit_order(steps: AbstractSequence[tuple[Any, ...]], start: int) -> dict[int, int]:
-    """Number the steps a tick can reach, in the order of first visit, success first.
-
-    Args:
-        steps: each ends with its next steps on success, failure and running.
-        start: where a tick starts.
-    """
-    order: dict[int, int] = {}
-    stack = [start]
-    while stack:
-        at = stack.pop()
-        if at >= 0 and at not in order:
-            order[at] = len(order)
-            _, success, failure, running = steps[at]
-            stack += (running, failure, success)
-    return order
+    _WAYS: ClassVar[Mapping[type[Node], Callable[[_Compiler, Any, int, int, int], int]]] = {
+        Action: _leaf,
+        Condition: _leaf,
+        Sequence: _sequence,
+        Fallback: _fallback,
+        Not: _not,
+        Parallel: _parallel,
+    }

@@ -7,6 +7,7 @@ parallel are control nodes, not is the decorator, actions and conditions are lea
 from __future__ import annotations
 
 import re
+from functools import cached_property
 from itertools import count
 from reprlib import repr as shortened
 from typing import TYPE_CHECKING, TypeAlias
@@ -54,6 +55,11 @@ class Action:
     name: str = field(validator=_check_name)
     arguments: Arguments = field(default=(), validator=_check_arguments)
 
+    @cached_property
+    def text(self) -> str:
+        """The leaf in the one-line notation."""
+        return f"[{leaf_text(self)}]"
+
 
 @frozen(cache_hash=True)
 class Condition:
@@ -61,6 +67,11 @@ class Condition:
 
     name: str = field(validator=_check_name)
     arguments: Arguments = field(default=(), validator=_check_arguments)
+
+    @cached_property
+    def text(self) -> str:
+        """The leaf in the one-line notation."""
+        return f"({leaf_text(self)})"
 
 
 def _some(_: object, attribute: Attribute[tuple[Node, ...]], value: tuple[Node, ...]) -> None:
@@ -113,6 +124,13 @@ Control: TypeAlias = Fallback | Sequence | Parallel
 Node: TypeAlias = Control | Not | Leaf
 BehaviorTree: TypeAlias = Node
 """A tree is its root node."""
+
+
+def leaf_text(leaf: Leaf) -> str:
+    """What stands between a leaf's brackets: its name, or `name(key=value)`."""
+    if not leaf.arguments:
+        return leaf.name
+    return f"{leaf.name}({','.join(f'{key}={value}' for key, value in leaf.arguments)})"
 
 
 def children(node: Node) -> tuple[Node, ...]:

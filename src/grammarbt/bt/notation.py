@@ -9,7 +9,6 @@ tokens is free. After `!`, `(c)` and `((c))` read alike.
 from __future__ import annotations
 
 import re
-from functools import lru_cache
 from reprlib import repr as shortened
 from typing import TypeAlias
 
@@ -27,12 +26,14 @@ from grammarbt.bt.model import (
     Not,
     Parallel,
     Sequence,
+    leaf_text,
 )
 from grammarbt.errors import NotationError
 
 _OPERATOR = re.compile(r"\?|→|->|!|(?:‖|\|\|)(\d+)")
 _LOOKS_LIKE_OPERATOR = re.compile(r"\?|→|->|!|(?:‖|\|\|)\d")
 _SIGNS: dict[type, str] = {Fallback: "?", Sequence: "→", Not: "!"}
+_LEAF = (Action, Condition)
 _EXCERPT = 24
 
 
@@ -50,28 +51,19 @@ def parse(text: str) -> BehaviorTree:
 
 def format_tree(tree: BehaviorTree) -> str:
     """Write a tree on one line; `parse` reads back the same tree."""
-    if isinstance(tree, Action | Condition):
-        return format_leaf(tree)
+    if isinstance(tree, _LEAF):
+        return tree.text
     if isinstance(tree, Not):
         child = format_tree(tree.child)
         plain = isinstance(tree.child, Condition) and not _LOOKS_LIKE_OPERATOR.match(tree.child.name)
         return f"!{child}" if plain else f"!({child})"
-    inside = " ".join(format_tree(child) for child in tree.children)
+    inside = " ".join([child.text if isinstance(child, _LEAF) else format_tree(child) for child in tree.children])
     return f"{operator(tree)}( {inside} )"
 
 
-@lru_cache(maxsize=4_096)
 def format_leaf(leaf: Leaf) -> str:
     """Write a leaf: `[name]`, `(name)`, or with arguments `[name(key=value)]`."""
-    text = leaf_text(leaf)
-    return f"[{text}]" if isinstance(leaf, Action) else f"({text})"
-
-
-def leaf_text(leaf: Leaf) -> str:
-    """What stands between a leaf's brackets; `read_leaf` reads it."""
-    if not leaf.arguments:
-        return leaf.name
-    return f"{leaf.name}({','.join(f'{key}={value}' for key, value in leaf.arguments)})"
+    return leaf.text
 
 
 def read_leaf(text: str, kind: type[Action | Condition]) -> Leaf:

@@ -13,20 +13,18 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from grammarbt.bt.compiler import FAILURE, RUNNING, SUCCESS, Compiler, visit_order
-from grammarbt.bt.model import BehaviorTree, Leaf
+from grammarbt.bt.compiler import FAILURE, RUNNING, SUCCESS, Steps, compile_steps
+from grammarbt.bt.model import BehaviorTree, Leaf, leaves
 from grammarbt.bt.notation import format_leaf
 from grammarbt.bt.status import Status
 from grammarbt.errors import DomainError, did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Mapping
 
 IntArray: TypeAlias = NDArray[np.int32]
 
-Step: TypeAlias = tuple[int, int, int, int]
 _STATUS = {SUCCESS: Status.SUCCESS, FAILURE: Status.FAILURE, RUNNING: Status.RUNNING}
-MAX_ENTRIES = 100_000
 
 
 @frozen
@@ -78,28 +76,29 @@ class Policy:
 
 
 def flatten(tree: BehaviorTree) -> FlatTree:
-    """Compile a tree; unreachable leaves have no entry, and entries are numbered in the order of first visit.
+    """Compile a tree; unreachable leaves have no entry, and an entry comes before those it leads to.
 
     Raises:
-        DomainError: nested parallel nodes need more than `MAX_ENTRIES` entries.
+        DomainError: nested parallel nodes need more than `MAX_STEPS` steps.
     """
-    flattener = _Flattener(tree)
-    return FlatTree(tuple(Entry(*row) for row in flattener.rows()), 0, flattener.occurrences)
+    steps = compile_steps(tree)
+    return FlatTree(tuple([Entry(*row) for row in _rows(steps)]), 0, steps.occurrences)
 
 
 def compile_policy(tree: BehaviorTree, index: Mapping[Leaf, int]) -> Policy:
     """Compile a tree for a domain whose leaves are numbered by `index`.
 
     Raises:
-        DomainError: the tree uses a leaf that the domain does not have.
+        DomainError: the tree uses a leaf that the domain does not have, or as `flatten`.
     """
-    flattener = _Flattener(tree)
-    rows = [
-        (_number(leaf, index), at, success, failure, running)
-        for leaf, at, success, failure, running in flattener.rows()
-    ]
-    leaf, occurrence, on_success, on_failure, on_running = np.array(rows, dtype=np.int32).T.copy()
-    return Policy(leaf, occurrence, on_success, on_failure, on_running, flattener.occurrences, tree)
+    steps = compile_steps(tree)
+    names, *columns = zip(*_rows(steps), strict=True)
+    try:
+        numbers = [index[leaf] for leaf in names]
+    except KeyError:
+        raise _unknown(tree, index) from None
+    leaf, occurrence, on_success, on_failure, on_running = np.array([numbers, *columns], dtype=np.int32)
+    return Policy(leaf, occurrence, on_success, on_failure, on_running, steps.occurrences, tree)
 
 
 def tick(flat: FlatTree, answer: Callable[[Leaf, int], Status]) -> Status:
@@ -117,42 +116,17 @@ def tick(flat: FlatTree, answer: Callable[[Leaf, int], Status]) -> Status:
     return _STATUS[at]
 
 
-def _number(leaf: Leaf, index: Mapping[Leaf, int]) -> int:
-    number = index.get(leaf)
-    if number is None:
-        known = [format_leaf(other) for other in index]
-        raise DomainError(f"the domain has no leaf {format_leaf(leaf)}", did_you_mean(format_leaf(leaf), known))
-    return number
+def _rows(steps: Steps) -> list[tuple[Leaf, int, int, int, int]]:
+    """The fields of the entries: the steps from left to right."""
+    new = [*reversed(range(len(steps.steps))), RUNNING, FAILURE, SUCCESS]  # at -3, -2 and -1, as steps name the ends
+    leaves_before = steps.occurrences
+    return [
+        (leaf, leaves_before + behind, new[success], new[failure], new[running])
+        for leaf, behind, success, failure, running in reversed(steps.steps)
+    ]
 
 
-class _Flattener(Compiler):
-    """Gives every leaf one step per way of going on after it; steps name leaves by how far they are from the end."""
-
-    def __init__(self, tree: BehaviorTree) -> None:
-        super().__init__()
-        self.steps: list[Step] = []
-        self.leaves: list[Leaf] = []
-        self.known: dict[Step, int] = {}
-        self.first = self.start(tree)
-        self.occurrences = -self.behind
-
-    def leaf(self, leaf: Leaf, success: int, failure: int, running: int) -> int:
-        key = (self.behind, success, failure, running)
-        at = self.known.get(key)
-        if at is None:
-            at = self.known[key] = len(self.steps)
-            if at >= MAX_ENTRIES:
-                raise DomainError(
-                    f"the tree's parallel nodes unroll to more than {MAX_ENTRIES:,} steps", "nest fewer of them"
-                )
-            self.steps.append(key)
-            self.leaves.append(leaf)
-        return at
-
-    def rows(self) -> Iterator[tuple[Leaf, int, int, int, int]]:
-        """The fields of the entries: without what no tick reaches, and numbered in the order of first visit."""
-        order = visit_order(self.steps, self.first)
-        new = {**order, SUCCESS: SUCCESS, FAILURE: FAILURE, RUNNING: RUNNING}
-        for at in order:
-            behind, success, failure, running = self.steps[at]
-            yield self.leaves[at], self.occurrences + behind, new[success], new[failure], new[running]
+def _unknown(tree: BehaviorTree, index: Mapping[Leaf, int]) -> DomainError:
+    leaf = next(leaf for leaf in leaves(tree) if leaf not in index)
+    known = [format_leaf(other) for other in index]
+    return DomainError(f"the domain has no leaf {format_leaf(leaf)}", did_you_mean(format_leaf(leaf), known))

@@ -16,6 +16,7 @@ import tempfile
 import time
 from concurrent.futures import Executor, Future
 from contextlib import contextmanager
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -71,11 +72,11 @@ class Stopwatch:
 
 def overhead(trials: int, milliseconds: float) -> None:
     """Processor time per trial, in which the domain, the searcher and the rest are told apart."""
-    print("simulation      trials  simulating  searching  framework   framework's share")
-    for seconds in (0.0, milliseconds / 1_000):
-        number = trials if seconds == 0.0 else min(trials, 5_000)
+    print("simulation      trials  batch  simulating  searching  framework   framework's share")
+    for seconds, batch in product((0.0, milliseconds / 1_000), (1, 16)):
+        number = trials if seconds == 0.0 else min(trials, 20_000)
         with tempfile.TemporaryDirectory() as scratch:
-            spec = _spec(Path(scratch) / "run", number, set={"domain": {"seconds": seconds}})
+            spec = _spec(Path(scratch) / "run", number, batch=batch, set={"domain": {"seconds": seconds}})
             setup = prepare(spec, Registry(PluginHost(PluginOptions(), print)))
             domain, searcher, search = Stopwatch(), Stopwatch(), _Search()
             type(setup.domain).simulate = domain.timed(type(setup.domain).simulate)  # type: ignore[method-assign, assignment]
@@ -85,7 +86,7 @@ def overhead(trials: int, milliseconds: float) -> None:
         each = [part / number * 1e6 for part in (domain.seconds, searcher.seconds, search.seconds)]
         rest = each[2] - each[0] - each[1]
         print(
-            f"{seconds * 1e3:7.1f} ms  {number:10,}  {each[0]:7.1f} µs  {each[1]:6.1f} µs  {rest:6.1f} µs"
+            f"{seconds * 1e3:7.1f} ms  {number:10,}  {batch:5}  {each[0]:7.1f} µs  {each[1]:6.1f} µs  {rest:6.1f} µs"
             f"  {rest / each[2]:10.1%}"
         )
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from grammarbt.bt.bdd import DecisionGraph, GraphNode, TooLargeError
 from grammarbt.bt.compiler import FAILURE, MAX_STEPS, RUNNING, SUCCESS, compile_steps
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Leaf
+from grammarbt.bt.model import Action, BehaviorTree, Condition
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -98,16 +98,14 @@ def _serialise(nodes: list[GraphNode], start: int) -> bytes:
     stack = [start]
     while stack:
         at = stack.pop()
-        name = names.get(at)
-        if name is not None:
-            lines.append(name)
+        if at in names:
+            lines.append(names[at])
             continue
         names[at] = str(len(names))
         text, success, failure, running = nodes[at]
-        if running == RUNNING:
-            lines.append(text)
-            stack += (failure, success)
-        else:
-            lines.append(f"{text}+")
-            stack += (running, failure, success)
+        lines.append(text)
+        stack += (failure, success)
+        if running != RUNNING:
+            lines.append("+")
+            stack.append(running)
     return "\n".join(lines).encode()

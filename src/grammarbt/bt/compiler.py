@@ -22,7 +22,7 @@ SUCCESS, FAILURE, RUNNING = -1, -2, -3
 
 MAX_STEPS = 100_000
 
-_RECENT = 16
+_RECENT = 64
 """Trees whose steps are kept: a tree is asked for its key, and soon after for its policy."""
 
 Step: TypeAlias = tuple[Leaf, int, int, int, int]

@@ -6,8 +6,8 @@ from unicodedata import east_asian_width
 
 from attrs import frozen
 
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, numbered
-from grammarbt.bt.notation import leaf_text, operator
+from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, leaf_text, numbered
+from grammarbt.bt.notation import operator
 
 HEIGHT, GAP, LEVEL = 30.0, 16.0, 62.0
 """Height of a node, space between neighbours, and distance of two levels, in pixels."""

@@ -22,6 +22,7 @@ class Answers(Protocol):
 
 
 Ticker: TypeAlias = "Callable[[Answers], Status]"
+"""Ticks a tree once, looking up what its leaves answer, and gives the root's status."""
 
 _Step: TypeAlias = tuple[int | None, Any]
 """A leaf's occurrence and the steps that follow failure, success and running; at the end None and the tick's status."""

@@ -26,6 +26,7 @@ _FORBIDDEN = re.compile(r"[\[\](){}\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\u
 """Signs of the notation, control characters, line separators, and what no UTF-8 or XML file can hold."""
 
 Arguments: TypeAlias = tuple[tuple[str, str], ...]
+"""A leaf's arguments: pairs of a name and a value, in the order in which they are written."""
 
 
 def _check_name(_: object, attribute: Attribute[str], value: str) -> None:
@@ -120,8 +121,14 @@ class Not:
 
 
 Leaf: TypeAlias = Action | Condition
+"""A node without children: it acts, or it asks."""
+
 Control: TypeAlias = Fallback | Sequence | Parallel
+"""A node that ticks several children."""
+
 Node: TypeAlias = Control | Not | Leaf
+"""Any node of a tree."""
+
 BehaviorTree: TypeAlias = Node
 """A tree is its root node."""
 

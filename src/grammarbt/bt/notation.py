@@ -26,7 +26,6 @@ from grammarbt.bt.model import (
     Not,
     Parallel,
     Sequence,
-    leaf_text,
 )
 from grammarbt.errors import NotationError
 

@@ -99,10 +99,14 @@ class Vocabulary:
         """The answers that each action may give, as declared."""
         return {leaf: kind.results for leaf, kind in self.types.items() if isinstance(kind, ActionType)}
 
+    @cached_property
+    def pure(self) -> frozenset[Leaf]:
+        """The conditions that are declared to draw no randomness and to change only when an action runs."""
+        return frozenset(leaf for leaf, kind in self.types.items() if isinstance(kind, ConditionType) and kind.pure)
+
     def is_pure(self, condition: Condition) -> bool:
-        """Whether the condition is declared to draw no randomness and to change only when an action runs."""
-        declared = self.types.get(condition)
-        return isinstance(declared, ConditionType) and declared.pure
+        """Whether a condition is among the `pure` ones."""
+        return condition in self.pure
 
 
 def actions_of(group: Group) -> tuple[Action, ...]:

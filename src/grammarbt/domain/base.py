@@ -19,11 +19,19 @@ if TYPE_CHECKING:
     from grammarbt.bt.vocabulary import Vocabulary
 
 Scenarios: TypeAlias = NDArray[np.int64]
+"""(n,) numbers of scenarios; each fixes a world and all its noise."""
+
 Returns: TypeAlias = NDArray[np.float64]
+"""(n,) returns, one per scenario."""
 
 SCENARIOS_PER_SEED = 2**32
+"""Numbers set apart for each run seed."""
+
 FIRST_VALIDATION_SCENARIO = 2**31
+"""Of a run seed's scenarios, those from this one on are for validation; no search sees them."""
+
 MAX_SEED = 2**31 - 1
+"""The largest run seed, so that every scenario fits into 64 bits."""
 
 
 def scenario_numbers(seed: int, start: int, stop: int) -> Scenarios:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+__all__ = ["mix", "uniform"]
+
 _SIXTY_FOUR_BITS = 2**64 - 1
 
 

@@ -7,7 +7,7 @@ episode small.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Literal, Protocol, TypeAlias, runtime_checkable
 
 from attrs import frozen
@@ -18,7 +18,10 @@ if TYPE_CHECKING:
     from grammarbt.bt import Policy
 
 Shape: TypeAlias = Literal["circle", "square", "triangle", "line", "text"]
+"""What a mark is drawn as."""
+
 Role: TypeAlias = Literal["ground", "path", "place", "robot", "goal", "hazard", "object", "belief", "note"]
+"""What a mark stands for, from which every viewer chooses its colours."""
 
 
 @frozen
@@ -84,6 +87,14 @@ class Episode:
     marks: tuple[Mark, ...] = ()
     box: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
     unit: str = ""
+
+    def pictures(self) -> Iterator[Mapping[str, Mark]]:
+        """The marks by name, in the order in which they are drawn: before the first tick, then after each."""
+        marks = {mark.name: mark for mark in self.marks}
+        yield dict(marks)
+        for frame in self.frames:
+            marks.update((mark.name, mark) for mark in frame.changes)
+            yield dict(marks)
 
 
 @runtime_checkable

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     TickAnswers = tuple[tuple[int, Status], ...]
 
+__all__ = ["EpisodeOverError", "World", "play", "record"]
+
 
 class EpisodeOverError(Exception):
     """Raised by `World.answer` when the episode is over in the middle of a tick; the leaf then counts as not ticked."""

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from grammarbt.bt import BehaviorTree
     from grammarbt.domain.episode import Frame
 
+__all__ = ["WatchableDomain", "playthrough"]
+
 _STATUS = {Status.SUCCESS: "success", Status.FAILURE: "failure", Status.RUNNING: "running"}
 _TRUTH = {Status.SUCCESS: "yes", Status.FAILURE: "no"}
 

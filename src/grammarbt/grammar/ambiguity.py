@@ -7,14 +7,14 @@ from below by what each nonterminal takes when no constraint is in the way.
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from itertools import count
 
 from attrs import frozen
 
 from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.form import SententialForm
-from grammarbt.grammar.leftmost import Word
+from grammarbt.grammar.leftmost import Move, Word
 from grammarbt.grammar.table import Derivation
 
 MAX_STATES = 10_000
@@ -58,34 +58,46 @@ def find_ambiguity(grammar: BoundGrammar, most: int = MAX_STATES) -> Verdict:
 
 def _search(grammar: BoundGrammar, symbol: int, least: dict[int, int], most: int) -> tuple[Ambiguity | None, int, bool]:
     """Shortest first; two ways to the same word and state stay together until the word is finished."""
-    order = count()
-    start = grammar.start(symbol)
+    order, met = count(), _Met()
     heap: list[tuple[int, int, Word, SententialForm, Derivation, Derivation | None]]
-    heap = [(0, next(order), (), start, (), None)]
-    seen: dict[tuple[Word, SententialForm], Derivation] = {}
-    doubled: set[tuple[Word, SententialForm]] = set()
+    heap = [(0, next(order), (), grammar.start(symbol), (), None)]
     looked_at, complete = 0, True
     while heap and looked_at < most:
-        _, _, word, state, first, second = heapq.heappop(heap)
+        _, _, word, state, one, another = heapq.heappop(heap)
         looked_at += _effort(state)
-        if second is None and (word, state) in seen:
-            first, second = seen[word, state], first
-        if second is None:
-            seen[word, state] = first
-        elif (word, state) in doubled:
+        pair = met.pair((word, state), one, another)
+        if pair is None:
             continue
-        else:
-            doubled.add((word, state))
-            if not state.symbols:
-                return Ambiguity(symbol, word, first, second), looked_at, False
-        for move in grammar.leftmost.moves(state):
-            longer, step = word + move.emits, (move.production,)
-            length = len(longer) + _least(grammar, move.after, least)
-            other = None if second is None else second + step
+        first, second = pair
+        if second is not None and not state.symbols:
+            return Ambiguity(symbol, word, first, second), looked_at, False
+        for length, longer, move in _longer(grammar, word, state, least):
             if length <= MAX_LENGTH:
+                step = (move.production,)
+                other = None if second is None else second + step
                 heapq.heappush(heap, (length, next(order), longer, move.after, first + step, other))
             complete = complete and length <= MAX_LENGTH
     return None, looked_at, complete and not heap
+
+
+class _Met:
+    """Words with states that were met, and by which derivation first."""
+
+    def __init__(self) -> None:
+        self._first: dict[tuple[Word, SententialForm], Derivation] = {}
+        self._twice: set[tuple[Word, SententialForm]] = set()
+
+    def pair(
+        self, place: tuple[Word, SententialForm], first: Derivation, second: Derivation | None
+    ) -> tuple[Derivation, Derivation | None] | None:
+        """The derivations that lead there, as far as they are known; None if two were known before."""
+        if second is None and place not in self._first:
+            self._first[place] = first
+            return first, None
+        if place in self._twice:
+            return None
+        self._twice.add(place)
+        return (self._first[place], first) if second is None else (first, second)
 
 
 def smallest_word(grammar: BoundGrammar, most: int = MAX_STATES) -> Word | None:
@@ -103,12 +115,19 @@ def smallest_word(grammar: BoundGrammar, most: int = MAX_STATES) -> Word | None:
         if state in seen:
             continue
         seen.add(state)
-        for move in grammar.leftmost.moves(state):
-            longer = word + move.emits
-            length = len(longer) + _least(grammar, move.after, least)
+        for length, longer, move in _longer(grammar, word, state, least):
             if length <= MAX_LENGTH:
                 heapq.heappush(heap, (length, next(order), longer, move.after))
     return None
+
+
+def _longer(
+    grammar: BoundGrammar, word: Word, state: SententialForm, least: dict[int, int]
+) -> Iterator[tuple[int, Word, Move]]:
+    """What each next production makes of the word, and how many tokens it then has in the end at least."""
+    for move in grammar.leftmost.moves(state):
+        longer = word + move.emits
+        yield len(longer) + _least(grammar, move.after, least), longer, move
 
 
 def _effort(state: SententialForm) -> int:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import networkx as nx
 from attrs import evolve
 
+from grammarbt.bt.notation import Token
 from grammarbt.bt.vocabulary import Vocabulary
 from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.constraints import Costs, compile_costs
@@ -148,23 +149,10 @@ def _cycles(productions: Sequence[PlainProduction]) -> list[Diagnostic]:
 def _number(grammar: Grammar, vocabulary: Vocabulary, productions: Sequence[PlainProduction]) -> BoundGrammar:
     start = next(production.lhs for production in productions if production.lhs.rule == START)
     nonterminals = list(dict.fromkeys([start, *(production.lhs for production in productions)]))
-    met = [s for production in productions for s in production.rhs if not isinstance(s, Nonterminal)]
-    terminals = list(dict.fromkeys(met))
+    terminals = _terminals(vocabulary, productions)
     number: dict[object, int] = {symbol: at for at, symbol in enumerate([*terminals, *nonterminals])}
     costs = compile_costs(grammar, productions)
-    numbered = tuple(
-        Production(
-            at,
-            number[production.lhs],
-            tuple(number[symbol] for symbol in production.rhs),
-            levels(production),
-            production.weight,
-            production.alias,
-            costs.use[at],
-            tuple(sorted(constraint for own, constraint in costs.clash if own == at)),
-        )
-        for at, production in enumerate(productions)
-    )
+    numbered = tuple(_numbered(at, production, number, costs) for at, production in enumerate(productions))
     opens = {number[n]: _opened(costs, n) for n in nonterminals}
     around = enclosing(numbered, opens, len(terminals))
     return BoundGrammar(
@@ -178,6 +166,29 @@ def _number(grammar: Grammar, vocabulary: Vocabulary, productions: Sequence[Plai
         tuple(opens[number[n]] for n in nonterminals),
         tuple(around.get(number[n], frozenset()) for n in nonterminals),
         _blocks(productions, number),
+    )
+
+
+def _terminals(vocabulary: Vocabulary, productions: Sequence[PlainProduction]) -> list[Token]:
+    """Each once, as first met."""
+    own: dict[Token, Token] = {
+        leaf: leaf for leaf in vocabulary.leaves
+    }  # the same leaf is found faster than an equal one
+    met = [own.get(s, s) for production in productions for s in production.rhs if not isinstance(s, Nonterminal)]
+    return list(dict.fromkeys(met))
+
+
+def _numbered(at: int, production: PlainProduction, number: Mapping[object, int], costs: Costs) -> Production:
+    """A production with numbers for its symbols, and what it uses of what is limited."""
+    return Production(
+        at,
+        number[production.lhs],
+        tuple(number[symbol] for symbol in production.rhs),
+        levels(production),
+        production.weight,
+        production.alias,
+        costs.use[at],
+        tuple(sorted(constraint for own, constraint in costs.clash if own == at)),
     )
 
 

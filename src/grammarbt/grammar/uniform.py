@@ -24,6 +24,7 @@ Steps: TypeAlias = tuple[int, ...]
 """Terminals, or productions."""
 
 Likely: TypeAlias = Literal["words", "derivations", "choices"]
+"""What is drawn with equal chance: every tree, every derivation, or every choice on the way to a tree."""
 
 REMEMBERED = 100_000
 """Sub-trees of each block kept once they have been spelled."""

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from attrs import frozen
 
+__all__ = ["RunFinished", "RunStarted", "TrialFinished"]
+
 
 @frozen
 class RunStarted:

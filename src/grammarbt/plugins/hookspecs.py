@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 hookspec = pluggy.HookspecMarker("grammarbt")
 hookimpl = pluggy.HookimplMarker("grammarbt")
+"""Marks a function of a plugin's `hooks` module as one that implements the hook of that name."""
 
 
 @hookspec

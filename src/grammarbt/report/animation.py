@@ -61,7 +61,8 @@ class _Stage:
         self._statuses: list[Statuses] = [(None,) * len(self._drawing.nodes), *statuses_of(tree, episode)]
         self.figure, (self._world, self._tree) = _halves(episode.box, self._drawing.width / self._drawing.height)
         self._scale = _fitted(self._tree, self._drawing.width)
-        self._marks = {mark.name: mark for mark in episode.marks}
+        self._pictures = episode.pictures()
+        self._marks = next(self._pictures)
         self._artists: dict[str, tuple[Mark, list[Artist]]] = {}
         self._shown = 0
         self._coloured: Statuses = ()
@@ -73,8 +74,8 @@ class _Stage:
         """Draw the state after so many ticks, which may only grow from call to call."""
         reward = self._episode.frames[tick - 1].reward if tick else 0.0
         self._world.set_title(f"tick {tick}, {self._episode.unit or 'reward'} {reward:g}", fontsize=9)
-        for frame in self._episode.frames[self._shown : tick]:
-            self._marks.update((mark.name, mark) for mark in frame.changes)
+        for _ in range(self._shown, tick):
+            self._marks = next(self._pictures)
         self._shown = tick
         self._draw_world()
         self._draw_tree(self._statuses[tick])

@@ -34,7 +34,8 @@ def watch(domain: Domain, name: str, policy: Policy, seed: int, number: int) -> 
         DomainError: the domain cannot be watched, or its simulator fails.
     """
     if not isinstance(domain, Watchable):
-        raise DomainError(f"domain {name!r} cannot show an episode", "give it a method `episode`, as TickDomain has")
+        hint = "give it a method `episode`, as TickDomain has; a program of exec answers episodes if it announces so"
+        raise DomainError(f"domain {name!r} cannot show an episode", hint)
     (scenario,) = scenario_numbers(seed, FIRST + number, FIRST + number + 1)
     try:
         return domain.episode(policy, int(scenario))

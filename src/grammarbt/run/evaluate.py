@@ -8,7 +8,7 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 import numpy as np
-from attrs import frozen
+from attrs import define, field, frozen
 
 from grammarbt.bt import BehaviorTree, format_tree
 from grammarbt.bt.canonical import canonical_key
@@ -20,7 +20,7 @@ from grammarbt.run.simulator import SerialSimulator, Simulator
 from grammarbt.search import Evaluation, Proposal
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable
 
     from grammarbt.domain import Scenarios
 
@@ -28,6 +28,7 @@ _DIGEST = 16
 """Bytes of a key; two different trees among 10^12 share one with a probability below 10^-14."""
 
 
+_NOTHING = Simulation()
 _RECENT = 1_024
 """Trees whose keys are kept: a race asks for the same trees again and again."""
 
@@ -53,34 +54,47 @@ class Trial:
     episodes: int = 0
 
 
-@frozen(eq=False)
-class Asked:
-    """A proposal, its tree in the one-line notation, and the key under which its returns are known."""
+@define(eq=False)
+class Task:
+    """A proposal on its way to a trial.
+
+    Attributes:
+        proposal: what was asked for.
+        text: its tree in the one-line notation.
+        key: under which the tree's returns are known.
+        known: these returns, once looked up.
+        missing: the scenarios whose returns are not known.
+        simulation: of these, if the journal has it.
+        trial: the end, once there is one.
+    """
 
     proposal: Proposal
     text: str
     key: bytes
+    known: Known = field(factory=Known)
+    missing: Sequence[int] = ()
+    simulation: Simulation | None = None
+    trial: Trial | None = None
 
+    def look_up(self, known: Known) -> None:
+        """Find what is missing."""
+        self.known = known
+        numbers = range(self.proposal.start, self.proposal.stop)
+        self.missing = [number for number in numbers if number not in known.returns] if known.returns else numbers
 
-@frozen(eq=False)
-class Task:
-    """What was asked for, the returns known of its tree, and the scenarios whose returns are missing."""
-
-    asked: Asked
-    known: Known
-    missing: Sequence[int]
-
-    def trial(self, simulation: Simulation) -> Trial:
-        """The trial, now that the missing scenarios are simulated; notes their returns."""
-        proposal, text, known = self.asked.proposal, self.asked.text, self.known
+    def finish(self, simulation: Simulation) -> None:
+        """Note the returns, now that the missing scenarios are simulated."""
+        proposal, known = self.proposal, self.known
         if simulation.status != "ok":
             failed = Evaluation(proposal, (), (), simulation.status, simulation.error)
-            return Trial(failed, text, len(self.missing))
-        fresh = simulation.returns
+            self.trial = Trial(failed, self.text, len(self.missing))
+            return
+        returns = fresh = simulation.returns
         known.learn(self.missing, fresh)
-        returns = tuple([known.returns[number] for number in range(proposal.start, proposal.stop)])
+        if len(fresh) < proposal.stop - proposal.start:
+            returns = tuple([known.returns[number] for number in range(proposal.start, proposal.stop)])
         evaluation = Evaluation(proposal, returns, simulation.ticks)
-        return Trial(evaluation, text, len(fresh), fresh, known.mean, len(known.returns))
+        self.trial = Trial(evaluation, self.text, len(fresh), fresh, known.mean, len(known.returns))
 
 
 class Evaluator:
@@ -120,61 +134,54 @@ class Evaluator:
 
     def evaluate(self, proposals: Sequence[Proposal], limit: int) -> list[Trial]:
         """Evaluate proposals in order until the next would simulate more than `limit` episodes in all."""
-        trials: dict[int, Trial] = {}
+        tasks = [Task(proposal, *self._identity(proposal.tree)) for proposal in proposals]
         used: dict[bytes, Known] = {}
-        left = {place: self._asked(proposal) for place, proposal in enumerate(proposals)}
-        before = self.episodes
-        while left and (wave := self._wave(left, used, limit + before - self.episodes)):
-            trials.update(zip(wave, self._evaluate(list(wave.values())), strict=True))
-            left = {place: asked for place, asked in left.items() if place not in wave}
-        self._remember(used, trials.values())
-        return [trials[place] for place in sorted(trials)]
+        left, end = tasks, self.episodes + limit
+        while left and (wave := self._wave(left, used, end - self.episodes)):
+            self._finish(wave)
+            left = [task for task in left if task.trial is None]
+        trials = [task.trial for task in tasks if task.trial is not None]
+        self.cache.keep(used, sum([len(trial.fresh) for trial in trials]))
+        return trials
 
-    def _asked(self, proposal: Proposal) -> Asked:
-        return Asked(proposal, *self._identity(proposal.tree))
-
-    def _wave(self, left: Mapping[int, Asked], used: dict[bytes, Known], limit: int) -> dict[int, Task]:
-        """Proposals whose keys all differ: what one learns, a later one of its key must know.
-
-        A later one may be overtaken where neither the limit nor the journal can make the order matter.
-        """
-        wanted = sum(asked.proposal.stop - asked.proposal.start for asked in left.values())
-        overtaking = wanted <= limit and not self.replay.going
-        wave: dict[int, Task] = {}
+    def _wave(self, left: Sequence[Task], used: dict[bytes, Known], limit: int) -> list[Task]:
+        """Tasks whose keys all differ: what one learns, a later one of its key must know."""
+        wave: list[Task] = []
         keys: set[bytes] = set()
-        for place, asked in left.items():
-            key = asked.key
-            if key in keys and overtaking:
+        spare = limit
+        for task in left:
+            if task.key in keys:
+                if self._in_order(left, limit):
+                    break
                 continue
-            task = self._task(asked, used)
-            limit -= len(task.missing)
-            if key in keys or limit < 0:
+            known = used.get(task.key)
+            if known is None:
+                known = used[task.key] = self.cache.get(task.key)
+            task.look_up(known)
+            spare -= len(task.missing)
+            if spare < 0:
                 break
-            keys.add(key)
-            wave[place] = task
+            keys.add(task.key)
+            wave.append(task)
         return wave
 
-    def _task(self, asked: Asked, used: dict[bytes, Known]) -> Task:
-        known = used.get(asked.key)
-        if known is None:
-            known = used[asked.key] = self.cache.get(asked.key)
-        numbers = range(asked.proposal.start, asked.proposal.stop)
-        return Task(asked, known, [number for number in numbers if number not in known.returns])
+    def _in_order(self, left: Sequence[Task], limit: int) -> bool:
+        """Whether no task may be overtaken: the limit may end the batch before it, or the journal expects it."""
+        return self.replay.going or sum(task.proposal.stop - task.proposal.start for task in left) > limit
 
-    def _evaluate(self, wave: Sequence[Task]) -> Iterator[Trial]:
+    def _finish(self, wave: Sequence[Task]) -> None:
         """Side by side, as far as the executor can."""
-        recorded = [self.replay.take(task.asked.proposal, task.asked.text, task.missing) for task in wave]
-        jobs = [task for task, simulation in zip(wave, recorded, strict=True) if simulation is None and task.missing]
-        fresh = self._simulator.simulate((task.asked.proposal.tree, self._numbers(task.missing)) for task in jobs)
-        for task, simulation in zip(wave, recorded, strict=True):
+        if self.replay.going:
+            for task in wave:
+                task.simulation = self.replay.take(task.proposal, task.text, task.missing)
+        jobs = [task for task in wave if task.simulation is None and task.missing]
+        fresh = self._simulator.simulate([(task.proposal.tree, self._numbers(task.missing)) for task in jobs])
+        for task in wave:
             self.episodes += len(task.missing)
-            yield task.trial(simulation or (next(fresh) if task.missing else Simulation()))
-
-    def _remember(self, used: Mapping[bytes, Known], trials: Iterable[Trial]) -> None:
-        self.cache.keep(used, sum([len(trial.fresh) for trial in trials]))
+            task.finish(task.simulation or (next(fresh) if task.missing else _NOTHING))
 
     def _numbers(self, missing: Sequence[int]) -> Scenarios:
-        return np.array(missing, dtype=np.int64) + self._first
+        return np.array([self._first + number for number in missing], dtype=np.int64)
 
 
 def _identity(key: Callable[[BehaviorTree, str], bytes], tree: BehaviorTree) -> tuple[str, bytes]:
@@ -187,4 +194,5 @@ def tree_key(domain: Domain) -> Callable[[BehaviorTree, str], bytes]:
     """The function of a tree and its text whose value trees share when the domain cannot tell them apart."""
     if domain.depends_on == "tree":
         return lambda _, text: text.encode()
-    return lambda tree, _: canonical_key(tree, domain.vocabulary.is_pure)
+    pure = domain.vocabulary.pure.__contains__
+    return lambda tree, _: canonical_key(tree, pure)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,9 @@ from grammarbt.search import EvaluationStatus
 if TYPE_CHECKING:
     from grammarbt.bt import BehaviorTree, Policy
     from grammarbt.domain import Domain, Scenarios
+
+_NUMBERS = "fiub"
+"""Kinds of arrays that hold real numbers."""
 
 
 @frozen
@@ -53,7 +57,10 @@ def simulate(domain: Domain, policy: Policy, scenarios: Scenarios) -> Simulation
     fault = _fault(outcome, policy, scenarios)
     if fault:
         return Simulation(status="invalid", error=fault)
-    return Simulation(tuple(outcome.returns.tolist()), tuple(outcome.ticks.tolist()))
+    returns = tuple(outcome.returns.tolist())
+    if not all(map(isfinite, returns)):
+        return Simulation(status="invalid", error="simulate gave a return that is not a finite number")
+    return Simulation(returns, tuple(outcome.ticks.tolist()))
 
 
 def _fault(outcome: object, policy: Policy, scenarios: Scenarios) -> str:
@@ -65,6 +72,6 @@ def _fault(outcome: object, policy: Policy, scenarios: Scenarios) -> str:
         return f"simulate gave returns of shape {returns.shape} for {len(scenarios)} scenarios"
     if ticks.shape != (policy.occurrences,):
         return f"simulate gave ticks of shape {ticks.shape} for {policy.occurrences} leaves"
-    if not np.isfinite(returns).all():
-        return "simulate gave a return that is not a finite number"
+    if returns.dtype.kind not in _NUMBERS:
+        return f"simulate gave returns of type {returns.dtype} instead of numbers"
     return ""

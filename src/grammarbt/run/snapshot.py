@@ -11,12 +11,12 @@ import time
 from typing import TYPE_CHECKING, Any, cast
 
 import cattrs
-from attrs import asdict, frozen
+from attrs import frozen
 
 from grammarbt.errors import RunError
-from grammarbt.run.cache import Known
 from grammarbt.run.folder import RunFolder, read_sealed, save_sealed
 from grammarbt.run.journal import Position, holds
+from grammarbt.run.packing import packed, unpack
 from grammarbt.run.stopping import Tally
 from grammarbt.search import Snapshotting
 
@@ -40,7 +40,7 @@ class Snapshot:
         position: the journal's end then.
         batches: recorded so far.
         tally: the counts and the best tree.
-        cache: the returns known, by key in hexadecimal, as scenarios and returns; the longest unused first.
+        cache: the returns known, as `packed` writes them.
         rng: the state of the searcher's random generator.
         searcher: what the searcher said.
     """
@@ -49,7 +49,7 @@ class Snapshot:
     position: Position
     batches: int
     tally: Tally
-    cache: dict[str, tuple[list[int], list[float]]]
+    cache: dict[str, str]
     rng: dict[str, Any]
     searcher: dict[str, Any]
 
@@ -80,17 +80,15 @@ class Camera:
         if self._searcher is None or now < self._due or self._evaluator.replay.going:
             return
         with contextlib.suppress(RunError):  # no room for it: the journal says all that is needed
-            save_sealed(self._folder.snapshot, asdict(self._snapshot(self._searcher)))
+            save_sealed(self._folder.snapshot, cattrs.unstructure(self._snapshot(self._searcher)))
         end = time.monotonic()
         self._due = end + max(self._setup.spec.snapshot, (end - now) / SHARE)
 
     def _snapshot(self, searcher: Snapshotting) -> Snapshot:
-        cache = {
-            key.hex(): ([*known.returns], [*known.returns.values()]) for key, known in self._evaluator.cache.items()
-        }
         rng = cast("dict[str, Any]", self._setup.rng.bit_generator.state)
         versions = cast("dict[str, str]", self._setup.resolved["versions"])
         position, batches = self._recorder.position, self._recorder.batches
+        cache = packed(self._evaluator.cache)
         return Snapshot(versions, position, batches, self._tally, cache, rng, dict(searcher.snapshot()))
 
 
@@ -98,10 +96,7 @@ def restore(snapshot: Snapshot, setup: Setup, evaluator: Evaluator) -> Tally:
     """Bring fresh parts to where a snapshot was made; gives the counts."""
     cast("Snapshotting", setup.searcher).restore(snapshot.searcher)
     setup.rng.bit_generator.state = snapshot.rng
-    for key, (scenarios, returns) in snapshot.cache.items():
-        known = Known()
-        known.learn(scenarios, returns)
-        evaluator.cache.keep({bytes.fromhex(key): known}, len(returns))
+    unpack(snapshot.cache, evaluator.cache)
     evaluator.episodes = snapshot.tally.episodes
     return snapshot.tally
 

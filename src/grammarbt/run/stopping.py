@@ -60,12 +60,14 @@ def reason_to_stop(spec: RunSpec, tally: Tally, out_of_time: Callable[[float], b
         tally: where the search stands.
         out_of_time: whether it has taken so many seconds.
     """
-    rules: tuple[tuple[Reason, bool], ...] = (
-        ("budget", tally.episodes >= spec.search_episodes),
-        ("trials", spec.trials is not None and tally.trials >= spec.trials),
-        ("target", spec.target is not None and tally.incumbent.mean >= spec.target),
-        ("stagnation", spec.stagnation is not None and tally.episodes - tally.improved >= spec.stagnation),
-        ("seconds", spec.seconds is not None and out_of_time(spec.seconds)),
-        ("stalled", tally.known_in_a_row >= _STALLED),
-    )
-    return next((reason for reason, holds in rules if holds), None)
+    if tally.episodes >= spec.search_episodes:
+        return "budget"
+    if spec.trials is not None and tally.trials >= spec.trials:
+        return "trials"
+    if spec.target is not None and tally.incumbent.mean >= spec.target:
+        return "target"
+    if spec.stagnation is not None and tally.episodes - tally.improved >= spec.stagnation:
+        return "stagnation"
+    if spec.seconds is not None and out_of_time(spec.seconds):
+        return "seconds"
+    return "stalled" if tally.known_in_a_row >= _STALLED else None

@@ -9,6 +9,7 @@ from typing import Literal, Protocol
 from attrs import define, field
 
 BanditName = Literal["ucb1", "ucb1-tuned", "ucb1-normal2", "ucb1-uniform", "threshold-ascent"]
+"""A rule by which a bandit chooses among arms, by the name that users type."""
 
 
 @define(eq=False)

@@ -16,6 +16,7 @@ from grammarbt.bt.vocabulary import Vocabulary
 from grammarbt.grammar import BoundGrammar, Derivation
 
 EvaluationStatus: TypeAlias = Literal["ok", "failed", "timeout", "invalid"]
+"""How an evaluation ended; `"invalid"` is a tree that the domain cannot use, or a return that is no finite number."""
 
 
 @frozen

@@ -12,7 +12,7 @@ def behaviour_of(context: SearchContext) -> Behaviour:
     """Equal for trees with equal returns: by behaviour, or the tree itself where the domain's return depends on it."""
     if context.depends_on == "tree":
         return _itself
-    return lambda tree: canonical_key(tree, context.vocabulary.is_pure)
+    return lambda tree: canonical_key(tree, context.vocabulary.pure.__contains__)
 
 
 def _itself(tree: BehaviorTree) -> object:

@@ -1,7 +1,10 @@
-"""Conformance checks for people who write domains and searchers."""
+"""For people who write domains and searchers: conformance checks, and what their tests share."""
 
 from grammarbt.testing.domains import DOMAIN_CHECKS
+from grammarbt.testing.playthroughs import Playthroughs
+from grammarbt.testing.puzzles import Puzzle, errands, letters
 from grammarbt.testing.searchers import SEARCHER_CHECKS
+from grammarbt.testing.simulators import tally, wild_tree
 from grammarbt.testing.subjects import DomainSubject, SearcherSubject
 from grammarbt.testing.suites import DomainConformance, SearcherConformance
 from grammarbt.testing.verdicts import Check, NonconformityError, Verdict, verdicts
@@ -13,8 +16,14 @@ __all__ = [
     "DomainConformance",
     "DomainSubject",
     "NonconformityError",
+    "Playthroughs",
+    "Puzzle",
     "SearcherConformance",
     "SearcherSubject",
     "Verdict",
+    "errands",
+    "letters",
+    "tally",
     "verdicts",
+    "wild_tree",
 ]

@@ -15,12 +15,26 @@ from typing import TYPE_CHECKING
 from grammarbt.bt.formats.building import check_level, control_node, leaf_node
 from grammarbt.bt.formats.markup import Element, quoted, read_xml
 from grammarbt.bt.formats.slug import is_tag_of, slug, tags
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Fallback, Leaf, Node, Not, Parallel, Sequence, depth
-from grammarbt.bt.notation import leaf_text, read_leaf
+from grammarbt.bt.model import (
+    Action,
+    BehaviorTree,
+    Condition,
+    Fallback,
+    Leaf,
+    Node,
+    Not,
+    Parallel,
+    Sequence,
+    depth,
+    leaf_text,
+)
+from grammarbt.bt.notation import read_leaf
 from grammarbt.errors import FormatError, NotationError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+
+__all__ = ["dumps", "loads"]
 
 CONTROL = {"ReactiveFallback": "?", "ReactiveSequence": "→", "Inverter": "!", "Parallel": "‖"}
 _TAGS = {Fallback: "ReactiveFallback", Sequence: "ReactiveSequence", Not: "Inverter"}

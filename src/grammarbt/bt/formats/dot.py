@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not, numbered
-from grammarbt.bt.notation import leaf_text, operator
+from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not, leaf_text, numbered
+from grammarbt.bt.notation import operator
 
 _HEAD = ["digraph tree {", "  ordering=out", '  node [fontname="sans-serif"]', "  edge [arrowhead=none]"]
 

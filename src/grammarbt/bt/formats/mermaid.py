@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not, numbered
-from grammarbt.bt.notation import leaf_text, operator
+from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not, leaf_text, numbered
+from grammarbt.bt.notation import operator
 
 _SPECIAL = re.compile(r"[!-/:-@\[-^`{-~]")
 """ASCII punctuation but `_`: quotes end a label, and other signs are read as Markdown or HTML."""

@@ -15,8 +15,7 @@ import json
 import re
 
 from grammarbt.bt.formats.building import check_level, control_node, leaf_node
-from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not, Parallel, Sequence
-from grammarbt.bt.notation import leaf_text
+from grammarbt.bt.model import Action, BehaviorTree, Condition, Node, Not, Parallel, Sequence, leaf_text
 from grammarbt.errors import FormatError
 
 _STRING = re.compile(r"""'(?:[^'\\\n]|\\.)*'|"(?:[^"\\\n]|\\.)*\"""")

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
-from grammarbt.bt.model import Action, Condition, Fallback, Node, Parallel, Sequence
-from grammarbt.bt.notation import leaf_text
+from grammarbt.bt.model import Action, Condition, Fallback, Node, Parallel, Sequence, leaf_text
 
 _CONTROL = {Fallback: "fallback", Sequence: "sequence", Parallel: "parallel"}
 

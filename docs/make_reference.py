@@ -9,19 +9,31 @@ import ast
 import importlib
 import inspect
 from collections.abc import Iterator
-from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
 import click
 
-import grammarbt
 from grammarbt import errors
 from grammarbt.cli.app import VERBS, application
 from grammarbt.plugins import PluginHost, PluginOptions, Registry, hookspecs, specs
 from grammarbt.plugins.parameters import Parameter, describe
 
-PACKAGES = ("bt", "domain", "grammar", "plugins", "search", "testing")
+PUBLIC = (
+    "grammarbt.bt",
+    "grammarbt.bt.formats.btcpp",
+    "grammarbt.domain",
+    "grammarbt.domain.chance",
+    "grammarbt.domain.plain",
+    "grammarbt.domain.playthrough",
+    "grammarbt.grammar",
+    "grammarbt.plugins",
+    "grammarbt.plugins.events",
+    "grammarbt.search",
+    "grammarbt.testing",
+)
+"""The modules whose `__all__` others may rely on."""
+
 KINDS = ("searchers", "domains", "executors", "grammars", "formats")
 REFERENCE = Path(__file__).parent / "reference"
 EVENTS = "grammarbt.plugins.events"
@@ -126,14 +138,14 @@ def _api() -> Iterator[str]:
     yield "These names are stable: a release that removes or changes one says so a minor version before, with a"
     yield "`DeprecationWarning` that names the replacement. Everything else is the project's own."
     yield ""
-    for package in PACKAGES:
-        module = importlib.import_module(f"grammarbt.{package}")
-        yield f"## `grammarbt.{package}`"
+    for path in PUBLIC:
+        module = importlib.import_module(path)
+        yield f"## `{path}`"
         yield ""
         yield (inspect.getdoc(module) or "").splitlines()[0]
         yield ""
         for name in sorted(module.__all__):
-            yield f"- `{name}`{_summary(name, getattr(module, name))}"
+            yield f"- `{name}`{_summary(path, name, getattr(module, name))}"
         yield ""
     yield "## `grammarbt.errors`"
     yield ""
@@ -141,28 +153,34 @@ def _api() -> Iterator[str]:
     yield ""
     for name, thing in vars(errors).items():
         if inspect.isclass(thing) and thing.__module__ == errors.__name__:
-            yield f"- `{name}`{_summary(name, thing)}"
+            yield f"- `{name}`{_summary(errors.__name__, name, thing)}"
     yield ""
 
 
-def _summary(name: str, thing: object) -> str:
-    """The first line of what the code says about a public name."""
+def _summary(module: str, name: str, thing: object) -> str:
+    """The first line of what the code says about a public name of a module."""
     own = inspect.isclass(thing) or inspect.isroutine(thing) or hasattr(thing, "__wrapped__")
-    text = (inspect.getdoc(thing) if own else _below_assignments().get(name)) or ""
+    text = (inspect.getdoc(thing) if own else _below_assignment(module, name)) or ""
     return f": {text.strip().splitlines()[0]}" if text.strip() else ""
 
 
-@cache
-def _below_assignments() -> dict[str, str]:
-    """What stands below constants and aliases, by their names, wherever in the core they are made."""
-    found: dict[str, str] = {}
-    for path in sorted(Path(grammarbt.__file__).parent.rglob("*.py")):
-        body = ast.parse(path.read_text(encoding="utf-8")).body
-        for made, below in pairwise(body):
-            if isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
-                targets = made.targets if isinstance(made, ast.Assign) else [getattr(made, "target", None)]
-                found |= {each.id: str(below.value.value) for each in targets if isinstance(each, ast.Name)}
-    return found
+def _below_assignment(module: str, name: str) -> str | None:
+    """What stands below a constant or an alias, in the module where it is made."""
+    body = ast.parse(inspect.getsource(importlib.import_module(module))).body
+    for statement, below in pairwise([*body, ast.Pass()]):
+        if isinstance(statement, ast.ImportFrom) and statement.module and name in _names(statement):
+            return _below_assignment(statement.module, name)
+        if name in _names(statement) and isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
+            return str(below.value.value)
+    return None
+
+
+def _names(statement: ast.stmt) -> list[str]:
+    """The names that a statement brings in or assigns."""
+    if isinstance(statement, ast.ImportFrom):
+        return [alias.name for alias in statement.names]
+    targets = statement.targets if isinstance(statement, ast.Assign) else [getattr(statement, "target", None)]
+    return [target.id for target in targets if isinstance(target, ast.Name)]
 
 
 if __name__ == "__main__":

@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+import pytest
+
 from grammarbt.grammar import Source, bind, load_grammar
 from grammarbt_marine.vocabulary import VOCABULARY
 
@@ -10,10 +12,11 @@ ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
-def test_every_link_leads_to_a_file():
-    links = [link for link in re.findall(r"\]\(([^)#]+)\)", README) if "://" not in link]
-    assert links
-    assert not [link for link in links if not (ROOT / link).exists()]
+@pytest.mark.parametrize("folder", ["tutorials", "how-to", "explanation"])
+def test_every_page_can_be_found_from_here(folder):
+    pages = [str(path.relative_to(ROOT)) for path in sorted((ROOT / "docs" / folder).glob("*.md"))]
+    assert pages
+    assert [page for page in pages if f"]({page})" not in README] == []
 
 
 def test_the_commands_are_targets_of_the_makefile():

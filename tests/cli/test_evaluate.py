@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 
 import pytest
+from corridor_runs import CORRIDOR
 
 from grammarbt.cli import main
 
-CORRIDOR = f"{Path(__file__).parents[2] / 'docs' / 'examples' / 'corridor.py'}:Corridor"
 MANUAL = "?( →( (holding cup) [go to door] ) →( [go to cup] [grasp] ) )"
 
 

@@ -71,6 +71,17 @@ def test_new_searcher_passes_the_kit_and_beats_its_own_first_trees(made):
     assert many > few
 
 
+@pytest.mark.parametrize(("kind", "own"), [("domain", "delivers_parcels"), ("searcher", "solves_a_puzzle")])
+def test_the_test_that_is_particular_to_a_new_plugin_passes(made, tmp_path, kind, own):
+    made(kind, "my-own")
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-k", own, "grammarbt-my-own/tests"]
+    environment = {**os.environ, "PYTHONPATH": "site"}
+    done = subprocess.run(
+        command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120, check=False
+    )
+    assert "1 passed" in done.stdout, done.stdout
+
+
 @pytest.mark.parametrize("name", ["My", "class", "a b", "-x", "../x", "ünder"])
 def test_bad_name_is_refused_in_one_line(name, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

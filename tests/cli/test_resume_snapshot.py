@@ -1,30 +1,13 @@
 """Snapshots shorten a replay and change nothing else."""
 
 import json
-from pathlib import Path
 
 import pytest
+from corridor_runs import IN_CORRIDOR, grammarbt, journal, run
 
-from grammarbt.cli import main
 from grammarbt.run import snapshot
 from grammarbt.run.folder import read_sealed, save_sealed
 from grammarbt.search.random import RandomSearch
-
-CORRIDOR = f"{Path(__file__).parents[2] / 'docs' / 'examples' / 'corridor.py'}:Corridor"
-SMALL = ("--domain", CORRIDOR, "--searcher", "random", "--validation", "20", "--seed", "3", "--batch", "7")
-
-
-def grammarbt(*arguments):
-    assert main([*arguments, "--quiet"]) == 0
-
-
-def run(folder, *arguments):
-    grammarbt("run", *arguments, "--out", str(folder))
-    return folder
-
-
-def journal(folder):
-    return (folder / "journal.jsonl").read_bytes()
 
 
 @pytest.fixture
@@ -33,7 +16,7 @@ def snapped(tmp_path, monkeypatch):
     monkeypatch.setattr(snapshot, "SHARE", float("inf"))
     spec = tmp_path / "spec.toml"
     spec.write_text("snapshot = 0.0\nbudget = 200\n")
-    folder = run(tmp_path / "snapped", str(spec), *SMALL)
+    folder = run(tmp_path / "snapped", str(spec), *IN_CORRIDOR)
     whole = journal(folder)
     (folder / "journal.jsonl").write_bytes(whole[: len(whole) - 900])
     return folder, whole
@@ -92,4 +75,4 @@ def test_a_snapshot_that_outlived_its_journal_is_ignored(snapped, capsys):
 def test_a_larger_budget_takes_no_notice_of_a_snapshot(snapped, tmp_path):
     folder, _ = snapped
     grammarbt("resume", str(folder), "--budget", "300")
-    assert journal(folder) == journal(run(tmp_path / "larger", *SMALL, "--budget", "300"))
+    assert journal(folder) == journal(run(tmp_path / "larger", *IN_CORRIDOR, "--budget", "300"))

@@ -9,12 +9,12 @@ import time
 from pathlib import Path
 
 import pytest
+from corridor_runs import CORRIDOR
 
 from grammarbt.bt import parse
 from grammarbt.cli import main
 from grammarbt.run.journal import read_journal
 
-CORRIDOR = f"{Path(__file__).parents[2] / 'docs' / 'examples' / 'corridor.py'}:Corridor"
 COMMAND = (sys.executable, "-m", "grammarbt", "run")
 FAST = ("--domain", CORRIDOR, "--searcher", "random", "--budget", "200", "--validation", "50")
 

@@ -5,21 +5,20 @@ import shlex
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from corridor_runs import CORRIDOR, CORRIDOR_FILE
 
 from grammarbt.cli import main
 from grammarbt.run.journal import read_journal
 
-CORRIDOR = Path(__file__).parents[2] / "docs" / "examples" / "corridor.py"
 RUN = ("run", "--searcher", "random", "--budget", "300", "--validation", "20", "--quiet")
 NOBODY = 65534
 
 
 def in_a_shell(before, *arguments):
     """The command line in a process of its own, after a shell's command."""
-    line = shlex.join([sys.executable, "-m", "grammarbt", *arguments, "--domain", f"{CORRIDOR}:Corridor"])
+    line = shlex.join([sys.executable, "-m", "grammarbt", *arguments, "--domain", CORRIDOR])
     return subprocess.run(["/bin/bash", "-c", f"{before}; exec {line}"], capture_output=True, text=True, check=False)
 
 
@@ -32,7 +31,7 @@ def one_line(errors):
 @pytest.fixture
 def locked_run(tmp_path):
     """A run in a folder that may be read and not written, also by root, who becomes nobody meanwhile."""
-    shutil.copy(CORRIDOR, tmp_path / "mine.py")
+    shutil.copy(CORRIDOR_FILE, tmp_path / "mine.py")
     folder = tmp_path / "run"
     domain = ("--domain", f"{tmp_path / 'mine.py'}:Corridor")
     assert main([*RUN, *domain, "--out", str(folder)]) == 0

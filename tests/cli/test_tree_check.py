@@ -1,13 +1,12 @@
 """`grammarbt tree check` tells what can never run, what was never visited, and what each sub-tree is worth."""
 
 import json
-from pathlib import Path
 
 import pytest
+from corridor_runs import CORRIDOR
 
 from grammarbt.cli import main
 
-CORRIDOR = f"{Path(__file__).parents[2] / 'docs' / 'examples' / 'corridor.py'}:Corridor"
 MANUAL = "?( →( (holding cup) [go to door] ) →( [go to cup] [grasp] ) )"
 HALF = "?( →( (holding cup) [go to door] ) [go to cup] →( (at cup) !(at cup) [grasp] ) )"
 

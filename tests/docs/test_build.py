@@ -4,6 +4,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 
@@ -35,6 +36,12 @@ def test_links_lead_to_files(page):
     links = [link.partition("#")[0] for link in LINK.findall(prose(page))]
     local = [link for link in links if link and "://" not in link and not link.startswith("mailto:")]
     assert [link for link in local if not (page.parent / link).exists()] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_links_elsewhere_are_whole_and_encrypted(page):
+    links = [urlsplit(link) for link in LINK.findall(prose(page)) if "://" in link]
+    assert [link.geturl() for link in links if link.scheme != "https" or "." not in link.netloc] == []
 
 
 def test_what_is_built_is_ignored():

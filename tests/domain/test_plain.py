@@ -61,3 +61,9 @@ def test_chance_is_even_and_the_same_for_the_same_key():
     assert numbers == [uniform(key) for key in range(10_000)]
     assert all(0 <= number < 1 for number in numbers)
     assert sum(numbers) / len(numbers) == pytest.approx(0.5, abs=0.01)
+
+
+def test_pictures_hold_every_mark_as_it_is_after_each_tick():
+    pictures = list(record(Stairs(), STEP_AND_STEP, (0, -1, 5, 1), "steps").pictures())
+    assert [[*picture] for picture in pictures] == [["floor", "walker"]] * 4
+    assert [picture["walker"].x for picture in pictures] == [0, 2, 4, 5]

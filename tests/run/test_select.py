@@ -3,6 +3,7 @@
 import pytest
 
 from grammarbt.bt import format_tree, parse
+from grammarbt.domain import Reference
 from grammarbt.run.ablate import Ablator
 from grammarbt.run.evaluate import Evaluator
 from grammarbt.run.score import Validator
@@ -65,3 +66,28 @@ def test_a_group_works_although_each_of_its_two_sub_trees_could_go(lamps):
     found = Ablator(Validator(lamps(), 0), 50).ablate(tree)
     assert [part.works for part in found.functional] == [False, False, True]
     assert found.complete is True
+
+
+TWICE = "?( →( [light right] !([light right]) ) [light right] )"
+
+
+@pytest.mark.parametrize(("other", "complete"), [(TWICE, True), ("[light right]", False)])
+def test_a_group_that_a_reference_as_good_as_the_first_does_without_does_not_matter(lamps, other, complete):
+    class Dimmer(lamps):
+        """The right lamp can be turned up once, and then pays as much as both."""
+
+        references = (*lamps.references, Reference("other", other))
+
+        def reset(self, rng):
+            super().reset(rng)
+            self.turns = 0
+
+        def action(self, name):
+            self.turns += name == "light right"
+            return super().action(name)
+
+        def step(self):
+            self.done = True
+            self.reward = self.pay * (self.lit["left"] + min(self.turns, 2))
+
+    assert Ablator(Validator(Dimmer(), 0), 50).ablate(parse(TWICE)).complete is complete

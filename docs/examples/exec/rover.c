@@ -17,7 +17,7 @@ enum { DRIVE_HOME, CHARGE, BATTERY_LOW, AT_BASE, DRIVE_TO_ROCK, COLLECT, AT_ROCK
 enum { CELLS = 12, ROCKS = 8, STEPS = 140, FULL = 30, LOW = 14, SCENARIOS = 10000, NUMBERS = 100000 };
 
 static const char *ANNOUNCEMENT =
-    "{\"protocol\":1,\"grammar\":\"scheide\",\"groups\":["
+    "{\"protocol\":1,\"episodes\":true,\"grammar\":\"scheide\",\"groups\":["
     "{\"name\":\"energy\",\"actions\":[\"drive home\",\"charge\"],"
     "\"conditions\":[{\"name\":\"battery low\",\"pure\":true},{\"name\":\"at base\",\"pure\":true}]},"
     "{\"name\":\"science\",\"actions\":[\"drive to rock\",\"collect\"],"
@@ -87,15 +87,51 @@ static int answer(World *world, int leaf) {
   }
 }
 
+static void draw(const World *world) {  /* the marks: the base, the rocks that are left, the rover and its battery */
+  printf("[{\"name\":\"base\",\"shape\":\"square\",\"role\":\"place\",\"x\":0,\"y\":0,\"size\":0.9}");
+  for (int i = 0; i < CELLS; i++)
+    printf(",{\"name\":\"rock %d\",\"shape\":\"circle\",\"role\":\"object\",\"x\":%d,\"y\":0,\"size\":0.8,\"shade\":%d}",
+           i, i, world->rock[i]);
+  printf(",{\"name\":\"rover\",\"shape\":\"triangle\",\"role\":\"robot\",\"x\":%d,\"y\":0,\"size\":0.6,\"label\":\"%d\"}]",
+         world->place, world->battery);
+}
+
+static double reward(const World *world) {
+  return 10.0 * world->collected - (world->battery > 0 ? 0.0 : 30.0);
+}
+
+static int64_t ticks[NUMBERS];  /* of each leaf of the tree */
+
+static void tick(World *world, const int64_t *table, int shown) {
+  static const char *STATUS[] = {"failure", "success", "running"};
+  for (int64_t at = 0; at >= 0;) {  /* a negative number ends it */
+    const int64_t *row = table + at * COLUMNS;
+    int status = answer(world, (int)row[LEAF]);
+    ticks[row[OCCURRENCE]]++;
+    if (shown) printf("%s[%d,\"%s\"]", at ? "," : "", (int)row[OCCURRENCE], STATUS[status]);
+    at = row[status == SUCCESS ? ON_SUCCESS : status == FAILURE ? ON_FAILURE : ON_RUNNING];
+  }
+}
+
 static double episode(const int64_t *table, int64_t scenario) {
   World world = fresh(scenario);
-  for (int step = 0; step < STEPS && world.battery > 0; step++)
-    for (int64_t at = 0; at >= 0;) {  /* one tick: a negative number ends it */
-      const int64_t *row = table + at * COLUMNS;
-      int status = answer(&world, (int)row[LEAF]);
-      at = row[status == SUCCESS ? ON_SUCCESS : status == FAILURE ? ON_FAILURE : ON_RUNNING];
-    }
-  return 10.0 * world.collected - (world.battery > 0 ? 0.0 : 30.0);
+  for (int step = 0; step < STEPS && world.battery > 0; step++) tick(&world, table, 0);
+  return reward(&world);
+}
+
+static void show(const int64_t *table, int64_t scenario) {  /* the same, told tick by tick */
+  World world = fresh(scenario);
+  printf("\"unit\":\"points\",\"box\":[-1,-2,%d,2],\"marks\":", CELLS);
+  draw(&world);
+  printf(",\"frames\":[");
+  for (int step = 0; step < STEPS && world.battery > 0; step++) {
+    printf("%s{\"answers\":[", step ? "," : "");
+    tick(&world, table, 1);
+    printf("],\"reward\":%.17g,\"changes\":", reward(&world));
+    draw(&world);
+    printf("}");
+  }
+  printf("]}\n");
 }
 
 static int numbers_after(const char *line, const char *key, int64_t *numbers, int most) {
@@ -106,6 +142,13 @@ static int numbers_after(const char *line, const char *key, int64_t *numbers, in
   return count;
 }
 
+static int leaves_in(const char *line) {  /* no name of ours has quotes in it, so this stands between leaves alone */
+  int count = 1;
+  for (const char *at = strstr(line, "\"leaves\":["); *at != '\n' && strncmp(at, "],\"tree\":", 9); at++)
+    count += strncmp(at, "\",\"", 3) == 0;
+  return count;
+}
+
 int main(void) {
   static int64_t scenarios[SCENARIOS], table[NUMBERS];
   char *line = NULL;
@@ -113,10 +156,19 @@ int main(void) {
   setvbuf(stdout, NULL, _IOLBF, 0);  /* every line goes out at once */
   puts(ANNOUNCEMENT);
   while (getline(&line, &size, stdin) > 0) {
-    int count = numbers_after(line, "\"scenarios\":[", scenarios, SCENARIOS);
+    const char *shown = strstr(line, "\"episode\":");
+    int count = numbers_after(line, "\"scenarios\":[", scenarios, SCENARIOS), leaves = leaves_in(line);
     numbers_after(line, "\"policy\":[", table, NUMBERS);
-    printf("{\"id\":%lld,\"returns\":[", atoll(line + strlen("{\"id\":")));
+    memset(ticks, 0, (size_t)leaves * sizeof *ticks);
+    printf("{\"id\":%lld,", atoll(line + strlen("{\"id\":")));
+    if (shown) {
+      show(table, atoll(shown + strlen("\"episode\":")));
+      continue;
+    }
+    printf("\"returns\":[");
     for (int i = 0; i < count; i++) printf("%s%.17g", i ? "," : "", episode(table, scenarios[i]));
+    printf("],\"ticks\":[");
+    for (int i = 0; i < leaves; i++) printf("%s%lld", i ? "," : "", (long long)ticks[i]);
     puts("]}");
   }
   free(line);

@@ -45,12 +45,16 @@ def test_each_ancestor_is_credited_once_per_roll_out(context, answer):
             assert node.number not in credited or credited >= {parent.number for parent in parents}
 
 
+def descendant(grammar, steps):
+    form = grammar.start()
+    for _ in range(steps):
+        form = grammar.apply(form, grammar.legal(form)[-1])
+    return form
+
+
 def test_linked_forms_lie_within_k_inverse_productions(grammar):
     dag = Dag(grammar)
-    form = grammar.start()
-    for _ in range(6):
-        form = grammar.apply(form, grammar.legal(form)[-1])
-    node = dag.add(form)
+    node = dag.add(descendant(grammar, 6))
     dag.link_ancestors(node, 6, 10_000)
     assert dag.root in ancestors([node])
     for other in dag.nodes:
@@ -59,10 +63,7 @@ def test_linked_forms_lie_within_k_inverse_productions(grammar):
 
 def test_ancestors_further_than_k_stay_unlinked(grammar):
     dag = Dag(grammar)
-    form = grammar.start()
-    for _ in range(6):
-        form = grammar.apply(form, grammar.legal(form)[-1])
-    node = dag.add(form)
+    node = dag.add(descendant(grammar, 6))
     dag.link_ancestors(node, 3, 10_000)
     assert len(dag.nodes) == 2
     assert dag.root not in ancestors([node])

@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 
 from grammarbt.bt import compile_policy, parse
-from grammarbt_exec.domain import Exec
+from grammarbt_exec.domain import make_exec
 from grammarbt_exec.parameters import ExecParameters
 
-STRAY = Path(__file__).parent / "stray.py"
+HERE = Path(__file__).parent
+STRAY = HERE / "stray.py"
+
+sys.path.append(str(HERE))  # what the tests share
 
 
 @pytest.fixture
@@ -26,7 +29,7 @@ def make(stray):
     made = []
 
     def make(fault="", *more, **limits):
-        made.append(Exec(ExecParameters(stray(fault, *more), **limits)))
+        made.append(make_exec(ExecParameters(stray(fault, *more), **limits)))
         return made[-1]
 
     yield make

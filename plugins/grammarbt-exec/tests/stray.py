@@ -14,6 +14,7 @@ from pathlib import Path
 
 ANNOUNCEMENT = {
     "protocol": 1,
+    "episodes": True,
     "groups": [
         {
             "name": "g",
@@ -42,8 +43,22 @@ def die():
 
 
 def answer(request, **changes):
+    if "episode" in request:
+        frame = {"answers": tick(request), "reward": request["episode"]}
+        return json.dumps({"id": request["id"], "frames": [frame]} | changes)
     fine = {"id": request["id"], "returns": [float(number) for number in request["scenarios"]]}
     return json.dumps(fine | changes)
+
+
+def tick(request):
+    """No condition holds, and no action ends."""
+    at, answers = 0, []
+    while at >= 0:
+        _, occurrence, _, on_failure, on_running = request["policy"][5 * at : 5 * at + 5]
+        condition = request["leaves"][occurrence].startswith("(")
+        answers.append((occurrence, "failure" if condition else "running"))
+        at = on_failure if condition else on_running
+    return answers
 
 
 FAULTS = {
@@ -69,15 +84,17 @@ FAULTS = {
     "latin": lambda _: raw("d\xe9j\xe0 vu\n".encode("latin-1")),
     "deep": lambda _: say("[" * 200_000),
     "huge": lambda _: (say("x" * 17 * 2**20), time.sleep(600)),
+    "silent": lambda request: say(answer(request)),
     "chatty": lambda request: (sys.stderr.write("log\n" * 100_000), say(answer(request))),
+    "half a letter": lambda request: say(json.dumps({"id": request["id"], "error": "\ud800"})),
     "refuses": lambda request: say(json.dumps({"id": request["id"], "error": "no such robot"})),
 }
 
 
 def main(fault, mark="-", every="0"):
-    announcement = ANNOUNCEMENT
+    announcement = ANNOUNCEMENT | {"episodes": fault != "silent"}
     if fault == "changes" and Path(mark).exists():
-        announcement = ANNOUNCEMENT | {"grammar": "scheide"}
+        announcement |= {"grammar": "scheide"}
     if mark != "-":
         child = subprocess.Popen(["sleep", "600"])  # noqa: S607 - any program that stays will do
         with Path(mark).open("a") as file:

@@ -3,7 +3,7 @@
 import pytest
 
 from grammarbt.errors import DomainError
-from grammarbt_exec.domain import Exec
+from grammarbt_exec.domain import make_exec
 from grammarbt_exec.parameters import ExecParameters
 
 FAULTS = {
@@ -29,6 +29,7 @@ FAULTS = {
     "deep": "no JSON",
     "huge": "wrote a line longer than 16 MiB",
     "refuses": "refused: no such robot",
+    "half-a-letter": r"refused: \\ud800",
 }
 
 
@@ -77,9 +78,28 @@ def test_a_program_that_announces_something_else_when_started_again_is_refused(m
         ("[]", "no JSON object"),
         ('{"protocol":1,"groups":[[]]}', r"not a JSON object @ \$\.groups\[0\]"),
         ("{}", r"required field missing @ \$\.protocol"),
-        ('{"protocol":2,"groups":[]}', r"2 not in literal.*\$\.protocol"),
+        ('{"protocol":2,"groups":[]}', r"2 is not one of 1 @ \$\.protocol"),
         ('{"protocol":1,"groups":[]}', "no leaves"),
-        ('{"protocol":1,"groups":[{"name":"g","actions":["a",{"nam":"b"}]}]}', r"\$\.groups\[0\]\.actions\[1\]\.name"),
+        ('{"protocol":1,"groups":[{"name":"g","actions":["a",{"help":"b"}]}]}', r"\$\.groups\[0\]\.actions\[1\]\.name"),
+        (
+            '{"protocol":1,"groups":[{"name":"g","actions":["a",{"nam":"b"}]}]}',
+            r'no key "nam", only name, .* \$.*\[1\]:',
+        ),
+        ('{"protocol":1,"groups":[{"name":"g","actions":"ab"}]}', r'"ab" is not a list @ \$\.groups\[0\]\.actions'),
+        (
+            '{"protocol":1,"groups":[{"name":"g","actions":["a"]}],"episodes":1}',
+            r"1 is not true or false @ \$\.episodes",
+        ),
+        ('{"protocol":true,"groups":[]}', r"true is not one of 1 @ \$\.protocol"),
+        (
+            '{"protocol":1,"groups":[{"name":"g","actions":[{"name":"a","parameters":{"to":"home"}}]}]}',
+            r'"home" is not a list @ \$\.groups\[0\]\.actions\[0\]\.parameters\["to"\]',
+        ),
+        (
+            '{"protocol":1,"groups":[{"name":"g","actions":[{"name":"a","results":["done"]}]}]}',
+            r'"done" is not one of success, failure, running @ \$.*\.results\[0\]',
+        ),
+        ('{"protocol":1,"groups":[{"name":"g\\ud800"}]}', r"half of a surrogate pair @ \$\.groups\[0\]\.name"),
         ('{"protocol":1,"groups":[{"name":"g","actions":[3]}]}', r"\$\.groups\[0\]\.actions\[0\]"),
         ('{"protocol":1,"groups":[{"name":"g","actions":["[a]"]}]}', "cannot have the name"),
         ('{"protocol":1,"groups":[{"name":"g"},{"name":"g"}]}', "two groups"),
@@ -93,7 +113,7 @@ def test_a_program_that_announces_something_else_when_started_again_is_refused(m
 def test_a_wrong_announcement_is_refused_with_the_place(tmp_path, line, reason):
     (tmp_path / "line").write_text(f"{line}\n" if line else "")
     with pytest.raises(DomainError, match=reason):
-        Exec(ExecParameters(f"cat '{tmp_path / 'line'}'"))
+        make_exec(ExecParameters(f"cat '{tmp_path / 'line'}'"))
 
 
 def test_a_command_that_cannot_run_is_refused(tmp_path):
@@ -107,9 +127,9 @@ def test_a_command_that_cannot_run_is_refused(tmp_path):
         str(script): "could not be started; its standard error ends with: Exec format error",
     }.items():
         with pytest.raises(DomainError, match=reason):
-            Exec(ExecParameters(command))
+            make_exec(ExecParameters(command))
 
 
 def test_a_program_that_never_announces_itself_is_given_up():
     with pytest.raises(DomainError, match=r"did not answer within 0\.3 s"):
-        Exec(ExecParameters("sleep 600", startup=0.3))
+        make_exec(ExecParameters("sleep 600", startup=0.3))

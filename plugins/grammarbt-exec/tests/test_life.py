@@ -14,9 +14,9 @@ from grammarbt.errors import DomainError
 OWNER = """
 import sys, time
 import numpy as np
-from grammarbt_exec.domain import Exec
+from grammarbt_exec.domain import make_exec
 from grammarbt_exec.parameters import ExecParameters
-domain = Exec(ExecParameters(sys.argv[1]))
+domain = make_exec(ExecParameters(sys.argv[1]))
 print("ready", flush=True)
 if sys.argv[2] == "waits":
     time.sleep(600)

@@ -24,7 +24,7 @@ from grammarbt.bt import (
 )
 from grammarbt.bt.formats.btcpp import loads
 from grammarbt.domain import ActionType, ConditionType, Group, Vocabulary
-from grammarbt_exec.messages import Request
+from grammarbt_exec.messages import simulation
 
 NAMES = ("a", 'say "policy":1, "id":2', "grüßen", "back\\slash")
 VOCABULARY = Vocabulary((Group("g", tuple(map(ActionType, NAMES)), tuple(map(ConditionType, NAMES))),))
@@ -47,7 +47,7 @@ TREES = st.recursive(LEAVES, control, max_leaves=8)
 
 
 def request_for(tree, scenarios=(0,)):
-    return json.loads(Request(compile_policy(tree, VOCABULARY.index), np.array(scenarios, dtype=np.int64)).line)
+    return json.loads(simulation(compile_policy(tree, VOCABULARY.index), np.array(scenarios, dtype=np.int64)).line)
 
 
 def tick_table(table, answers):
@@ -87,7 +87,7 @@ def test_notation_xml_and_leaves_are_of_the_same_tree(tree):
 
 @given(TREES, st.lists(st.integers(0, 2**62), min_size=1, max_size=5))
 def test_a_program_without_a_json_reader_finds_the_numbers(tree, scenarios):
-    line = Request(compile_policy(tree, VOCABULARY.index), np.array(scenarios)).line.decode()
+    line = simulation(compile_policy(tree, VOCABULARY.index), np.array(scenarios)).line.decode()
     assert line.count("\n") == 1
     for key in ("scenarios", "policy"):
         text = line.split(f'"{key}":[', 1)[1].split("]", 1)[0]

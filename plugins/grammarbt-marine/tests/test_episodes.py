@@ -20,7 +20,7 @@ WORLDS = {
     "team": {"robots": 2},
     "team of scheide": {"preset": "scheide", "robots": 3},
 }
-PLAYTHROUGHS = runpy.run_path(str(Path(__file__).with_name("record_playthroughs.py")))
+PLAYTHROUGHS = runpy.run_path(str(Path(__file__).with_name("record_playthroughs.py")))["PLAYTHROUGHS"]
 
 
 @pytest.fixture(scope="module", params=WORLDS)
@@ -29,13 +29,6 @@ def watched(request):
     marine = Marine(MarineParameters(**WORLDS[request.param]))
     tree = parse(marine.references[0].tree)
     return marine, tree, marine.episode(compile_policy(tree, marine.vocabulary.index), 3)
-
-
-def marks_in_the_end(episode):
-    marks = {mark.name: mark for mark in episode.marks}
-    for frame in episode.frames:
-        marks.update((mark.name, mark) for mark in frame.changes)
-    return marks
 
 
 def test_the_reward_grows_to_the_return_and_every_tick_is_there(watched):
@@ -85,7 +78,8 @@ def test_the_picture_has_all_that_there_is(watched):
 def test_what_is_dealt_with_fades(watched):
     _, _, episode = watched
     done = [event.split(": ")[-1] for frame in episode.frames for event in frame.events]
-    faded = [mark.name.split()[0] for mark in marks_in_the_end(episode).values() if mark.shade in {0.0, 0.25}]
+    *_, marks = episode.pictures()
+    faded = [mark.name.split()[0] for mark in marks.values() if mark.shade in {0.0, 0.25}]
     assert faded.count("mine") == done.count("mine disarmed")
     assert faded.count("object") == done.count("object picked up")
     assert faded.count("target") == done.count("target reported")
@@ -107,10 +101,10 @@ def test_a_robot_whose_battery_dies_is_lost():
     episode = marine.episode(compile_policy(parse("[coverage]"), marine.vocabulary.index), 0)
     assert episode.frames[-1].events == ("battery dead",)
     assert len(episode.frames) < marine.parameters.horizon
-    assert marks_in_the_end(episode)["robot 1"].label == "lost"
+    *_, marks = episode.pictures()
+    assert marks["robot 1"].label == "lost"
 
 
-@pytest.mark.parametrize("world", PLAYTHROUGHS["WORLDS"])
+@pytest.mark.parametrize("world", PLAYTHROUGHS.worlds)
 def test_the_manual_tree_goes_through_the_recorded_ticks(world):
-    recorded = (PLAYTHROUGHS["FOLDER"] / f"{world}.txt").read_text(encoding="utf-8")
-    assert PLAYTHROUGHS["tell"](world) == recorded
+    assert PLAYTHROUGHS.told(world) == PLAYTHROUGHS.recorded(world)

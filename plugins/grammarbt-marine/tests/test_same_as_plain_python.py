@@ -1,6 +1,7 @@
 """The compiled simulator and the one in plain Python agree on every number."""
 
 import contextlib
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from grammarbt.bt import (
     Action,
     Condition,
     Fallback,
+    Node,
     Not,
     Parallel,
     Sequence,
@@ -19,6 +21,7 @@ from grammarbt.bt import (
     parse,
     walk,
 )
+from grammarbt.testing import wild_tree
 from grammarbt_marine.domain import Marine
 from grammarbt_marine.parameters import MarineParameters
 from grammarbt_marine.plain import PlainMarine
@@ -27,7 +30,7 @@ from grammarbt_marine.references import EXTENDED_REFERENCES
 from grammarbt_marine.vocabulary import EXTENDED_VOCABULARY, VOCABULARY
 
 SUCCESS, FAILURE, RUNNING = Status.SUCCESS, Status.FAILURE, Status.RUNNING
-EXTENDED, MANUAL, BEST_ORDER = (parse(reference.tree) for reference in EXTENDED_REFERENCES)
+EXTENDED, MANUAL, BEST_ORDER, THOROUGH = (parse(reference.tree) for reference in EXTENDED_REFERENCES)
 
 WORLDS = {
     "sparse": {"preset": "sparse"},
@@ -52,43 +55,31 @@ def pick(rng, options):
     return options[rng.integers(len(options))]
 
 
-class Trees:
-    """Random trees over the leaves of a vocabulary."""
-
-    def __init__(self, vocabulary):
-        self.actions = [leaf for leaf in vocabulary.leaves if isinstance(leaf, Action)]
-        self.conditions = [leaf for leaf in vocabulary.leaves if isinstance(leaf, Condition)]
-
-    def wild(self, rng, size):
-        """Any nesting of all kinds of nodes; most such robots soon stand still."""
-        if size <= 1:
-            return pick(rng, pick(rng, (self.actions, self.actions, self.conditions)))
-        if rng.random() < 0.15:
-            return Not(self.wild(rng, size - 1))
-        parts = tuple(self.wild(rng, rng.integers(1, max(2, size // 2))) for _ in range(rng.integers(2, 5)))
-        if rng.random() < 0.2:
-            return Parallel(parts, rng.integers(1, len(parts), endpoint=True))
-        return pick(rng, (Fallback, Fallback, Sequence))(parts)
-
-    def busy(self, rng, manual):
-        """Some of the sub-trees that work, in any order, and now and then something wild between them."""
-        wild = Sequence((pick(rng, self.conditions), pick(rng, self.conditions), self.wild(rng, 4)))
-        parts = [*manual.children[:-2], wild]
-        rng.shuffle(parts)
-        tree = Fallback((*parts[1:], *manual.children[-2:]))
-        return tree if rng.random() < 0.5 else Parallel((tree, self.wild(rng, 3)), 1)
+def wild(vocabulary, number):
+    """Most robots with such a tree soon stand still."""
+    return wild_tree(np.random.default_rng(number), vocabulary.leaves, 24)
 
 
-PAPER, ALL = Trees(VOCABULARY), Trees(EXTENDED_VOCABULARY)
+def busy(vocabulary, manual, number):
+    """Some of the sub-trees that work, in any order, and now and then something wild between them."""
+    rng = np.random.default_rng(number)
+    conditions = [leaf for leaf in vocabulary.leaves if isinstance(leaf, Condition)]
+    extra = Sequence((pick(rng, conditions), pick(rng, conditions), wild_tree(rng, vocabulary.leaves, 4)))
+    parts = [*manual.children[:-2], extra]
+    rng.shuffle(parts)
+    tree = Fallback((*parts[1:], *manual.children[-2:]))
+    return tree if rng.random() < 0.5 else Parallel((tree, wild_tree(rng, vocabulary.leaves, 3)), 1)
+
+
 TREES = [
-    *(MANUAL, BEST_ORDER),
-    *(PAPER.busy(np.random.default_rng(number), MANUAL) for number in range(12)),
-    *(PAPER.wild(np.random.default_rng(number), 24) for number in (2, 6, 7, 8, 10, 11)),
+    *(MANUAL, BEST_ORDER, THOROUGH),
+    *(busy(VOCABULARY, MANUAL, number) for number in range(11)),
+    *(wild(VOCABULARY, number) for number in range(6)),
 ]
 EXTENDED_TREES = [
     *(EXTENDED, MANUAL),
-    *(ALL.busy(np.random.default_rng(number), EXTENDED) for number in range(6)),
-    *(ALL.wild(np.random.default_rng(number), 24) for number in (2, 6, 7, 8, 10, 11)),
+    *(busy(EXTENDED_VOCABULARY, EXTENDED, number) for number in range(6)),
+    *(wild(EXTENDED_VOCABULARY, number) for number in range(6)),
 ]
 
 
@@ -121,7 +112,7 @@ def test_they_are_equal_in_other_worlds_and_teams(world):
 def test_the_trees_compared_have_every_kind_of_node_and_every_leaf():
     for trees, vocabulary in ((TREES, VOCABULARY), (EXTENDED_TREES, EXTENDED_VOCABULARY)):
         nodes = [node for tree in trees for node in walk(tree)]
-        assert {type(node) for node in nodes} == {Fallback, Sequence, Not, Parallel, Action, Condition}
+        assert {type(node) for node in nodes} == {*get_args(Node)}
         assert {node for node in nodes if isinstance(node, Action | Condition)} == set(vocabulary.leaves)
     assert (len(TREES), len(EXTENDED_TREES)) == (20, 14)
 

@@ -9,7 +9,7 @@ from grammarbt.bt import compile_policy, parse
 from grammarbt_pickplace.domain import PickPlace
 from grammarbt_pickplace.parameters import PickPlaceParameters
 
-PLAYTHROUGHS = runpy.run_path(str(Path(__file__).with_name("record_playthroughs.py")))
+PLAYTHROUGHS = runpy.run_path(str(Path(__file__).with_name("record_playthroughs.py")))["PLAYTHROUGHS"]
 
 
 def episode_of(task, tree=None, scenario=0, *, stochastic=False):
@@ -21,10 +21,9 @@ def events_of(episode):
     return [event for frame in episode.frames for event in frame.events]
 
 
-@pytest.mark.parametrize("world", PLAYTHROUGHS["WORLDS"])
+@pytest.mark.parametrize("world", PLAYTHROUGHS.worlds)
 def test_the_best_known_tree_goes_through_the_recorded_ticks(world):
-    recorded = (PLAYTHROUGHS["FOLDER"] / f"{world}.txt").read_text(encoding="utf-8")
-    assert PLAYTHROUGHS["tell"](world) == recorded
+    assert PLAYTHROUGHS.told(world) == PLAYTHROUGHS.recorded(world)
 
 
 def test_the_picture_has_tables_goal_cubes_and_the_robot_within_its_box():
@@ -37,9 +36,7 @@ def test_the_picture_has_tables_goal_cubes_and_the_robot_within_its_box():
 
 def test_placed_cubes_lie_on_the_goal_at_the_end():
     episode = episode_of("S3")
-    marks = {mark.name: mark for mark in episode.marks}
-    for frame in episode.frames:
-        marks.update((mark.name, mark) for mark in frame.changes)
+    *_, marks = episode.pictures()
     goal = marks["goal"]
     assert {(marks[f"cube {n}"].x, marks[f"cube {n}"].y) for n in range(3)} == {(round(goal.x, 2), round(goal.y, 2))}
     assert sorted(event for event in events_of(episode) if "placed" in event) == [f"cube {n} placed" for n in range(3)]

@@ -1,10 +1,12 @@
 """The ant walks, turns, sees and eats as written down by hand, and as an ant in plain Python does."""
 
+from typing import get_args
+
 import numpy as np
 import pytest
-from toys_trees import EVERY_KIND, kinds_of, played, wild_tree
 
-from grammarbt.bt import Fallback, compile_policy, parse, walk
+from grammarbt.bt import Fallback, Node, compile_policy, parse, walk
+from grammarbt.testing import tally, wild_tree
 from grammarbt_toys.ant import VOCABULARY, Ant
 from grammarbt_toys.ant_kernel import LEAVES, simulate
 from grammarbt_toys.parameters import AntParameters
@@ -83,7 +85,7 @@ def test_an_episode_leaves_the_trail_as_it_was():
 @pytest.mark.parametrize(("tree", "written"), PLAYTHROUGHS)
 def test_a_playthrough_is_as_written_down(tree, written):
     ant = WritingAnt(SMALL_TRAIL, len(written))
-    played(ant, parse(tree))
+    tally(ant, parse(tree))
     assert ant.written == written
 
 
@@ -96,11 +98,11 @@ def test_the_compiled_ant_has_eaten_as_much_after_every_step(tree, written):
 @pytest.mark.parametrize("steps", [1, 7, 100, 600])
 def test_pellets_and_ticks_are_those_of_plain_python(steps):
     for tree in TREES:
-        assert eaten_in(tree, SANTA_FE, steps) == played(PlainAnt(SANTA_FE, steps), tree)
+        assert eaten_in(tree, SANTA_FE, steps) == tally(PlainAnt(SANTA_FE, steps), tree)
 
 
 def test_the_trees_compared_have_every_kind_of_node_and_some_of_them_eat():
-    assert kinds_of(node for tree in TREES for node in walk(tree)) == EVERY_KIND
+    assert {type(node) for tree in TREES for node in walk(tree)} == {*get_args(Node)}
     assert len({eaten_in(tree, SANTA_FE, 600)[0] for tree in TREES}) > 5
 
 

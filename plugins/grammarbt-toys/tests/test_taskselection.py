@@ -1,10 +1,12 @@
 """Task selection is exact: known trees are right everywhere, and wrong ones exactly as often as they are."""
 
+from typing import get_args
+
 import numpy as np
 import pytest
-from toys_trees import EVERY_KIND, kinds_of, played, wild_tree
 
-from grammarbt.bt import compile_policy, format_tree, parse, walk
+from grammarbt.bt import Node, compile_policy, format_tree, parse, walk
+from grammarbt.testing import tally, wild_tree
 from grammarbt_toys.parameters import TaskSelectionParameters
 from grammarbt_toys.plain_taskselection import PlainTaskSelection, right_action
 from grammarbt_toys.taskselection import TaskSelection, right_tree
@@ -64,10 +66,10 @@ def test_there_is_an_action_for_every_product_and_one_for_c0():
 def test_returns_and_ticks_are_those_of_plain_python(last):
     for tree in [*trees_of(last), right_tree(last)]:
         outcome = outcome_of(tree, last, scenarios=2)
-        share, ticks = played(PlainTaskSelection(last), tree)
+        share, ticks = tally(PlainTaskSelection(last), tree)
         assert outcome.returns.tolist() == [share] * 2
         assert outcome.ticks.tolist() == [2 * count for count in ticks]
 
 
 def test_the_trees_compared_have_every_kind_of_node():
-    assert kinds_of(node for tree in trees_of(3) for node in walk(tree)) == EVERY_KIND
+    assert {type(node) for tree in trees_of(3) for node in walk(tree)} == {*get_args(Node)}

@@ -11,7 +11,7 @@ from grammarbt_toys.foraging import Foraging
 from grammarbt_toys.platformer import Platformer
 from grammarbt_toys.taskselection import TaskSelection
 
-PLAYTHROUGHS = runpy.run_path(str(Path(__file__).with_name("record_playthroughs.py")))
+PLAYTHROUGHS = runpy.run_path(str(Path(__file__).with_name("record_playthroughs.py")))["PLAYTHROUGHS"]
 TOYS = {toy.__name__: toy() for toy in (Ant, Foraging, Platformer, TaskSelection)}
 
 
@@ -20,21 +20,13 @@ def episode_of(name, tree=None, scenario=1):
     return toy.episode(compile_policy(parse(tree or toy.references[0].tree), toy.vocabulary.index), scenario)
 
 
-def marks_in_the_end(episode):
-    marks = {mark.name: mark for mark in episode.marks}
-    for frame in episode.frames:
-        marks.update((mark.name, mark) for mark in frame.changes)
-    return marks
-
-
 def events_of(episode):
     return [event for frame in episode.frames for event in frame.events]
 
 
-@pytest.mark.parametrize("world", PLAYTHROUGHS["WORLDS"])
+@pytest.mark.parametrize("world", PLAYTHROUGHS.worlds)
 def test_the_reference_goes_through_the_recorded_ticks(world):
-    recorded = (PLAYTHROUGHS["FOLDER"] / f"{world}.txt").read_text(encoding="utf-8")
-    assert PLAYTHROUGHS["tell"](world) == recorded
+    assert PLAYTHROUGHS.told(world) == PLAYTHROUGHS.recorded(world)
 
 
 @pytest.mark.parametrize("name", TOYS)
@@ -54,7 +46,7 @@ def test_a_tick_changes_few_marks(name):
 
 def test_the_ant_has_eaten_all_that_can_no_longer_be_seen():
     episode = episode_of("Ant")
-    marks = marks_in_the_end(episode)
+    *_, marks = episode.pictures()
     assert sum(mark.role == "object" and mark.shade == 1.0 for mark in episode.marks) == 89
     assert not [mark for mark in marks.values() if mark.role == "object" and mark.shade]
     assert sum(int(event.split()[0]) for event in events_of(episode)) == 89
@@ -70,8 +62,9 @@ def test_the_swarm_delivers_what_the_sites_lose():
     episode = episode_of("Foraging")
     delivered = sum("delivered" in event for event in events_of(episode))
     assert delivered == episode.frames[-1].reward > 0
-    left = [mark for mark in marks_in_the_end(episode).values() if mark.role == "object" and mark.shade]
-    carried = sum("*" in mark.label for mark in marks_in_the_end(episode).values() if mark.role == "robot")
+    *_, marks = episode.pictures()
+    left = [mark for mark in marks.values() if mark.role == "object" and mark.shade]
+    carried = sum("*" in mark.label for mark in marks.values() if mark.role == "robot")
     assert sum(int(mark.label or 1) for mark in left) + carried + delivered == 40
 
 
@@ -95,5 +88,6 @@ def test_task_selection_tells_wrong_choices():
     wrong = events_of(episode)
     assert wrong[0] == "wrong: a1 instead of a0"
     assert episode.frames[-1].reward == 1 - len(wrong) / len(episode.frames)
-    chosen = marks_in_the_end(episode)["chosen"]
+    *_, marks = episode.pictures()
+    chosen = marks["chosen"]
     assert (chosen.label, chosen.role) == ("a1", "hazard")

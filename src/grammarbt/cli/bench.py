@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 import click
 
 from grammarbt.cli.app import open_registry
+from grammarbt.cli.options import json_option
+from grammarbt.report import tables
 from grammarbt.report.comparison import Comparison, Entrant, compare
 from grammarbt.report.entrants import curve_measurer, entrants_of
 from grammarbt.report.history import read_history
 from grammarbt.report.plots import save_curves
-from grammarbt.report.tables import as_csv, as_json, as_text
 from grammarbt.run.bench import BenchSpec, Cell, cells, is_finished, read_bench, run_cells
 
 if TYPE_CHECKING:
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
 @click.command("bench")
 @click.argument("spec", type=click.Path(path_type=Path), metavar="SPEC.toml")
 @click.option("--workers", type=int, metavar="N", help="Runs side by side; as many as cores unless given.")
-@click.option("--json", "as_json_", is_flag=True, help="Print one JSON object.")
-def command(spec: Path, workers: int | None, as_json_: bool) -> int:
+@json_option
+def command(spec: Path, workers: int | None, as_json: bool) -> int:
     """Run a benchmark, or go on with it, and print its table.
 
     \b
@@ -52,7 +53,7 @@ def command(spec: Path, workers: int | None, as_json_: bool) -> int:
     entrants = _entrants(asked, everything, registry)
     comparison = compare(entrants, asked.target)
     _write(Path(asked.out), comparison, entrants, curves=bool(asked.curve))
-    print(as_json(comparison) if as_json_ else as_text(comparison), end="")
+    print(tables.as_json(comparison) if as_json else tables.as_text(comparison), end="")
     return int(failed)
 
 
@@ -80,7 +81,7 @@ def _entrants(asked: BenchSpec, everything: Sequence[Cell], registry: Registry) 
 
 def _write(folder: Path, comparison: Comparison, entrants: Sequence[Entrant], *, curves: bool) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    for name, text in (("table.txt", as_text), ("table.csv", as_csv), ("table.json", as_json)):
+    for name, text in (("table.txt", tables.as_text), ("table.csv", tables.as_csv), ("table.json", tables.as_json)):
         (folder / name).write_text(text(comparison), encoding="utf-8")
     if curves:
         save_curves(entrants, folder / "curves.svg")

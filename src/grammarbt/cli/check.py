@@ -8,6 +8,7 @@ import attrs
 import click
 
 from grammarbt.cli.app import open_registry
+from grammarbt.cli.options import json_option
 from grammarbt.cli.output import emit_json
 from grammarbt.run.spec import settings_of
 from grammarbt.testing import DOMAIN_CHECKS, SEARCHER_CHECKS, DomainSubject, SearcherSubject, verdicts
@@ -24,7 +25,7 @@ MARKS = {"ok": "ok  ", "failed": "FAIL", "not applicable": "-   "}
 @click.argument("kind", type=click.Choice(["domain", "searcher"]))
 @click.argument("name", metavar="NAME|FILE.py:NAME")
 @click.option("--set", "settings", multiple=True, metavar="PART.KEY=VALUE", help="A parameter of it; repeatable.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@json_option
 def command(kind: str, name: str, settings: tuple[str, ...], as_json: bool) -> int:
     """Put a component to every check of the conformance kit.
 

@@ -6,6 +6,7 @@ import attrs
 import click
 
 from grammarbt.cli.app import open_registry
+from grammarbt.cli.options import domain_settings, json_option, worlds_option
 from grammarbt.cli.output import emit_json, table
 from grammarbt.run.ablate import Ablator, Functional
 from grammarbt.run.score import Score, Validator
@@ -16,11 +17,11 @@ from grammarbt.run.trees import load_tree
 @click.command("evaluate")
 @click.argument("tree")
 @click.option("--domain", metavar="NAME|FILE.py:NAME", help="The simulator; marine unless given.")
-@click.option("--set", "settings", multiple=True, metavar="domain.KEY=VALUE", help="A parameter of it; repeatable.")
+@domain_settings
 @click.option("--episodes", "validation", type=int, metavar="N", help="Fresh worlds; 2000 unless given.")
-@click.option("--seed", type=int, metavar="N", help="Which worlds; 0 unless given.")
+@worlds_option
 @click.option("--functional", is_flag=True, help="Take out each sub-tree of the root, and say which ones work.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@json_option
 def command(tree: str, settings: tuple[str, ...], functional: bool, as_json: bool, **options: object) -> None:
     """Measure TREE: notation, a file, or a run folder.
 

@@ -11,6 +11,7 @@ import click
 from grammarbt.cli.app import open_registry
 from grammarbt.cli.failures import SUCCESS
 from grammarbt.cli.grammar_check import command as check
+from grammarbt.cli.options import domain_settings, json_option
 from grammarbt.cli.output import emit_json, table
 from grammarbt.run.spec import settings_of
 
@@ -37,15 +38,12 @@ def _domain(verb: Callable[..., Answer]) -> Callable[..., Answer]:
     """Add the options of a domain to a verb, which gets them as one argument."""
 
     @click.option("--domain", required=True, metavar="NAME|FILE.py:NAME", help="Whose leaves to use.")
-    @click.option("--set", "settings", multiple=True, metavar="domain.KEY=VALUE", help="A parameter of it; repeatable.")
+    @domain_settings
     @wraps(verb)
     def with_domain(domain: str, settings: tuple[str, ...], **others: object) -> Answer:
         return verb(domain=DomainOptions(domain, settings), **others)
 
     return with_domain
-
-
-_as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 
 
 @click.group("grammar", context_settings={"help_option_names": ["-h", "--help"]})
@@ -62,7 +60,7 @@ command.add_command(check)
 @command.command("count")
 @click.argument("file")
 @_domain
-@_as_json
+@json_option
 def count(file: str, domain: DomainOptions, as_json: bool) -> None:
     """Count derivations, distinct trees and distinct behaviours of FILE, exactly.
 
@@ -113,7 +111,7 @@ def sample(file: str, domain: DomainOptions, number: int, seed: int, uniform: Li
 @click.argument("file")
 @click.argument("tree")
 @_domain
-@_as_json
+@json_option
 def parse(file: str, tree: str, domain: DomainOptions, as_json: bool) -> int:
     """Say how FILE derives TREE, or where TREE leaves the language; exits with 1 if it does."""
     from grammarbt.grammar import NotInLanguageError, parse_tree  # noqa: PLC0415 - brings lark

@@ -8,6 +8,7 @@ import click
 
 from grammarbt.cli.app import open_registry
 from grammarbt.cli.failures import SUCCESS, USER_MISTAKE
+from grammarbt.cli.options import json_option
 from grammarbt.cli.output import emit_json, table
 from grammarbt.errors import GrammarError
 from grammarbt.run.spec import settings_of
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 @click.option(
     "--set", "settings", multiple=True, metavar="domain.KEY=VALUE", help="A parameter of the domain; repeatable."
 )
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@json_option
 def command(file: str, domain: str | None, settings: tuple[str, ...], as_json: bool) -> int:
     """Check the grammar FILE, or a shipped one by its name.
 

@@ -8,6 +8,7 @@ import attrs
 import click
 
 from grammarbt.cli.app import open_registry
+from grammarbt.cli.options import json_option
 from grammarbt.cli.output import emit_json, table
 from grammarbt.errors import UnknownNameError
 from grammarbt.plugins.parameters import Parameter, describe
@@ -32,7 +33,7 @@ class Component:
 
 @click.command("plugins")
 @click.argument("name", required=False)
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@json_option
 def command(name: str | None, as_json: bool) -> None:
     """List the plugins, or show the components that NAME stands for.
 

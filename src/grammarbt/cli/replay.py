@@ -10,6 +10,7 @@ from attrs import frozen
 
 from grammarbt.bt import BehaviorTree, compile_policy, format_tree
 from grammarbt.cli.app import open_registry
+from grammarbt.cli.options import domain_settings
 from grammarbt.domain import Domain
 from grammarbt.errors import FormatError, RunError
 from grammarbt.report import btlog
@@ -35,7 +36,7 @@ _MOST_LETTERS = 80
 @click.command("replay")
 @click.argument("tree", metavar="RUN|TREE")
 @click.option("--domain", metavar="NAME|FILE.py:NAME", help="The simulator; the run's own, or marine, unless given.")
-@click.option("--set", "settings", multiple=True, metavar="domain.KEY=VALUE", help="A parameter of it; repeatable.")
+@domain_settings
 @click.option("--seed", type=int, metavar="N", help="Which fresh worlds; the run's own, or 0, unless given.")
 @click.option("--scenario", type=click.IntRange(min=0), default=0, metavar="N", help="Which of them; 0 unless given.")
 @click.option("--tick", type=click.IntRange(min=0), metavar="N", help="Of a still picture; the last unless given.")

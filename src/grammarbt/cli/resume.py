@@ -8,6 +8,7 @@ from typing import Any, cast
 import click
 
 from grammarbt.cli.app import open_registry
+from grammarbt.cli.options import json_option, quiet_option
 from grammarbt.cli.output import warn
 from grammarbt.cli.progress import make_display
 from grammarbt.cli.run import emit, interruptible
@@ -22,8 +23,8 @@ from grammarbt.run.spec import settings_of
 @click.option("--workers", type=int, metavar="N", help="Simulations side by side; as before unless given.")
 @click.option("--executor", metavar="NAME", help="What simulates; as before unless given.")
 @click.option("--set", "settings", multiple=True, metavar="executor.KEY=VALUE", help="Its parameters; repeatable.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-@click.option("--quiet", is_flag=True, help="Show no progress.")
+@json_option
+@quiet_option
 def command(run: Path, settings: tuple[str, ...], as_json: bool, quiet: bool, **options: object) -> None:
     """Go on with a run that was stopped, or give a finished one a larger budget.
 

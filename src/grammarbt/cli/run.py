@@ -12,6 +12,7 @@ import attrs
 import click
 
 from grammarbt.cli.app import open_registry
+from grammarbt.cli.options import json_option, quiet_option
 from grammarbt.cli.output import emit_json, table, warn
 from grammarbt.cli.progress import Display, make_display
 from grammarbt.run.execute import Result, execute
@@ -39,8 +40,8 @@ from grammarbt.run.spec import RunSpec, read_spec, settings_of
 @click.option(
     "--validation", type=int, metavar="EPISODES", help="Fresh worlds to score the tree on; 2000 unless given."
 )
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-@click.option("--quiet", is_flag=True, help="Show no progress.")
+@json_option
+@quiet_option
 def command(spec: str | None, settings: tuple[str, ...], as_json: bool, quiet: bool, **options: object) -> None:
     """Learn a behavior tree.
 

@@ -11,6 +11,7 @@ from grammarbt.bt import BehaviorTree, DeadLeaf, compile_policy, dead_leaves, fo
 from grammarbt.cli.app import open_registry
 from grammarbt.cli.drawing import drawing, label
 from grammarbt.cli.failures import SUCCESS
+from grammarbt.cli.options import domain_settings, json_option, worlds_option
 from grammarbt.cli.output import emit_json, table
 from grammarbt.errors import ParameterError
 from grammarbt.run.inspection import Inspection, NodeCount, inspect_tree
@@ -32,11 +33,11 @@ _COUNTED = {
 @click.command("check")
 @click.argument("tree")
 @click.option("--domain", metavar="NAME|FILE.py:NAME", help="Whose leaves they are; marine unless given.")
-@click.option("--set", "settings", multiple=True, metavar="domain.KEY=VALUE", help="A parameter of it; repeatable.")
+@domain_settings
 @click.option("--episodes", "validation", type=int, metavar="N", help="Watch the tree in so many fresh worlds.")
-@click.option("--seed", type=int, metavar="N", help="Which worlds; 0 unless given.")
+@worlds_option
 @click.option("--coverage", type=float, metavar="PERCENT", help="Exit with 1 if fewer of the nodes are visited.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@json_option
 def command(
     tree: str, settings: tuple[str, ...], coverage: float | None, as_json: bool, **options: int | str | None
 ) -> int:

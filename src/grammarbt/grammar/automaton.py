@@ -10,7 +10,7 @@ as many paths as there are words, but does not spell them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache, cached_property, partial
 from itertools import combinations
 from typing import TypeAlias
@@ -23,6 +23,7 @@ from grammarbt.grammar.finite import endless, ever_open
 from grammarbt.grammar.form import SententialForm
 from grammarbt.grammar.leftmost import Move
 from grammarbt.grammar.paths import MAX_STEPS, Paths, explore, infinite, too_large
+from grammarbt.grammar.reach import reachable
 from grammarbt.grammar.symmetry import Item, Symmetry, by_number
 from grammarbt.grammar.table import Production
 
@@ -125,16 +126,12 @@ class Language:
         if self._leaves(one).isdisjoint(self._leaves(other)):  # every tree has a leaf
             return not all(self.words_to_count(block).final[0] for block in (one, other))
         first, second = self.words(one), self.words(other)
-        stack, seen = [(0, 0)], {(0, 0)}
-        while stack:
-            left, right = stack.pop()
-            if first.final[left] and second.final[right]:
-                return False
-            after = dict(second.edges[right])
-            pairs = [(to, after[label]) for label, to in first.edges[left] if label in after]
-            stack += [pair for pair in pairs if pair not in seen]
-            seen.update(pairs)
-        return True
+
+        def after(pair: tuple[int, int]) -> list[tuple[int, int]]:
+            follow = dict(second.edges[pair[1]])
+            return [(to, follow[label]) for label, to in first.edges[pair[0]] if label in follow]
+
+        return not any(first.final[left] and second.final[right] for left, right in reachable((0, 0), after))
 
     def _leaves(self, block: int) -> frozenset[int]:
         """The leaves that can come up in a block."""
@@ -202,14 +199,10 @@ def _is_prefix_free(graph: Paths) -> bool:
 
 
 def _reached(bound: BoundGrammar, symbol: int) -> list[Production]:
-    met, queue, found = {symbol}, [symbol], []
-    while queue:
-        for production in bound.by_lhs.get(queue.pop(), ()):
-            found.append(production)
-            new = [s for s in dict.fromkeys(production.rhs) if bound.is_nonterminal(s) and s not in met]
-            met.update(new)
-            queue += new
-    return found
+    def parts(nonterminal: int) -> Iterator[int]:
+        return (s for p in bound.by_lhs.get(nonterminal, ()) for s in p.rhs if bound.is_nonterminal(s))
+
+    return [production for lhs in reachable(symbol, parts) for production in bound.by_lhs.get(lhs, ())]
 
 
 def _is_contained(bound: BoundGrammar, block: int) -> bool:

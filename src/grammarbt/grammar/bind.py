@@ -14,6 +14,7 @@ from grammarbt.grammar.constraints import Costs, compile_costs
 from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError
 from grammarbt.grammar.expand import expand
 from grammarbt.grammar.model import KINDS, START, Grammar
+from grammarbt.grammar.reach import reachable
 from grammarbt.grammar.shape import levels, operators, shape_findings
 from grammarbt.grammar.symbols import Nonterminal, PlainProduction
 from grammarbt.grammar.syntax import Limit, Unique
@@ -114,12 +115,8 @@ def productive_of(productions: Sequence[PlainProduction]) -> tuple[PlainProducti
         message = "the domain has no leaves where this grammar needs them"
         help_ = f"every tree needs a group with leaves for its {' or '.join(KINDS)}"
         raise GrammarFileError([Diagnostic("G404", message, None, help_)])
-    reached, queue = {start}, [start]
-    while queue:
-        for production in by_lhs.get(queue.pop(), []):
-            new = [s for s in production.rhs if isinstance(s, Nonterminal) and s not in reached]
-            reached.update(new)
-            queue.extend(new)
+    parts = {lhs: [s for p in own for s in p.rhs if isinstance(s, Nonterminal)] for lhs, own in by_lhs.items()}
+    reached = set(reachable(start, parts.__getitem__))
     return tuple(production for production in kept if production.lhs in reached)
 
 

@@ -17,6 +17,7 @@ from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError, Source
 from grammarbt.grammar.finite import is_finite
 from grammarbt.grammar.model import START, Grammar, load_grammar
+from grammarbt.grammar.reach import reachable
 from grammarbt.grammar.symbols import PlainProduction
 from grammarbt.grammar.syntax import literals, references
 from grammarbt.grammar.usage import Usage
@@ -143,13 +144,8 @@ def _static_findings(grammar: Grammar) -> Iterator[Diagnostic]:
 
 def _reachable(grammar: Grammar) -> set[str]:
     rules = {rule.name: rule for rule in grammar.rules}
-    found, queue = {START}, [START]
-    while queue:
-        for reference, _ in references(rules[queue.pop()].alternatives):
-            if reference.name in rules and reference.name not in found:
-                found.add(reference.name)
-                queue.append(reference.name)
-    return found
+    used = {name: [own.name for own, _ in references(rule.alternatives)] for name, rule in rules.items()}
+    return set(reachable(START, lambda name: filter(rules.__contains__, used[name])))
 
 
 def _ambiguity_finding(bound: BoundGrammar, productive: Sequence[PlainProduction], ambiguity: Ambiguity) -> Diagnostic:

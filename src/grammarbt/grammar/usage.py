@@ -13,6 +13,7 @@ from grammarbt.grammar.bind import ending
 from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.diagnostics import Diagnostic
 from grammarbt.grammar.needs import EntangledError, Needs
+from grammarbt.grammar.reach import reachable
 from grammarbt.grammar.symbols import Nonterminal, PlainProduction
 from grammarbt.grammar.table import Production
 from grammarbt.grammar.vectors import Vector
@@ -37,16 +38,10 @@ class Usage:
     @cached_property
     def usable(self) -> tuple[Production, ...]:
         """Productions that some derivation may take, as far as their own needs say."""
-        needs = self.bound.forms.needs
-        reached, queue, found = {self.bound.start_symbol}, [self.bound.start_symbol], []
-        while queue:
-            for production in self.bound.by_lhs.get(queue.pop(), ()):
-                if needs.allows(production):
-                    found.append(production)
-                    new = [s for s in production.rhs if self.bound.is_nonterminal(s) and s not in reached]
-                    reached.update(new)
-                    queue += new
-        return tuple(found)
+        allows, is_nonterminal = self.bound.forms.needs.allows, self.bound.is_nonterminal
+        allowed = {lhs: [p for p in own if allows(p)] for lhs, own in self.bound.by_lhs.items()}
+        parts = {lhs: [s for p in own for s in p.rhs if is_nonterminal(s)] for lhs, own in allowed.items()}
+        return tuple(p for lhs in reachable(self.bound.start_symbol, parts.__getitem__) for p in allowed[lhs])
 
     def findings(self) -> Iterator[Diagnostic]:
         """Groups that cannot appear, leaves and rules that no word uses."""
@@ -129,16 +124,15 @@ class Usage:
 
     def _empty_set(self, nonterminal: Nonterminal) -> str:
         """The set without leaves that keeps a nonterminal from ending."""
-        queue, seen = [nonterminal], {nonterminal}
-        while queue:
-            first = queue.pop(0)
-            own = [production for production in self.written if production.lhs == first]
-            if not own:
-                return first.name
-            new = [s for p in own for s in p.rhs if isinstance(s, Nonterminal) and s not in self._ending | seen]
-            seen.update(new)
-            queue += new
-        return nonterminal.name
+        by_lhs: dict[Nonterminal, list[PlainProduction]] = {}
+        for production in self.written:
+            by_lhs.setdefault(production.lhs, []).append(production)
+
+        def endless(lhs: Nonterminal) -> Iterator[Nonterminal]:
+            rows = (production.rhs for production in by_lhs.get(lhs, ()))
+            return (s for row in rows for s in row if isinstance(s, Nonterminal) and s not in self._ending)
+
+        return next((lhs.name for lhs in reachable(nonterminal, endless) if lhs not in by_lhs), nonterminal.name)
 
     @cached_property
     def _unlimited(self) -> Needs | None:

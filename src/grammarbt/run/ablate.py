@@ -45,7 +45,10 @@ class Ablation:
 
 @frozen
 class Functional:
-    """The ablations of a tree, and whether every group that matters to the reference works in it."""
+    """The ablations of a tree, and whether every group that matters works in it.
+
+    A group matters when it matters to the first reference, and to every other that is at least as good.
+    """
 
     functional: tuple[Ablation, ...]
     complete: bool | None
@@ -82,7 +85,17 @@ class Ablator:
 
     def _complete(self, tree: BehaviorTree) -> bool:
         costs = self._group_costs(tree)
-        return all(costs.get(group, 0.0) >= _WORKS * cost for group, cost in self._needed.items())
+        lacking = [group for group, cost in self._needed.items() if costs.get(group, 0.0) < _WORKS * cost]
+        return all(self._is_spared(group) for group in lacking)
+
+    def _is_spared(self, group: str | None) -> bool:
+        """Whether a reference that is at least as good as the first does without the group."""
+        first, *others = (parse(reference.tree) for reference in self._references)
+        good = [other for other in others if self._mean(other) >= self._mean(first)]
+        return any(self._group_costs(tree).get(group, 0.0) < _MATTERS * abs(self._mean(tree)) for tree in good)
+
+    def _mean(self, tree: BehaviorTree) -> float:
+        return score_of(self._returns(tree)).mean
 
     @cached_property
     def _needed(self) -> Mapping[str | None, float]:
@@ -90,7 +103,7 @@ class Ablator:
         if not self._references:
             return {}
         reference = parse(self._references[0].tree)
-        least = _MATTERS * abs(score_of(self._returns(reference)).mean)
+        least = _MATTERS * abs(self._mean(reference))
         return {group: cost for group, cost in self._group_costs(reference).items() if cost >= least}
 
     def _group_costs(self, tree: BehaviorTree) -> dict[str | None, float]:

@@ -3,44 +3,44 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, TypeVar
+from typing import ClassVar, Literal
 
-import cattrs
 from attrs import field, frozen
 
 from grammarbt.bt import Status, compile_policy, parse
 from grammarbt.domain import ActionType, ConditionType, Group, Reference, Vocabulary
 from grammarbt.errors import DomainError, GrammarBTError
 from grammarbt_exec.lines import read_object
-
-Announced = TypeVar("Announced")
-
-_STATUS = {"success": Status.SUCCESS, "failure": Status.FAILURE, "running": Status.RUNNING}
+from grammarbt_exec.structure import structured
 
 
 @frozen
-class AnnouncedAction:
-    """An action; a plain text in the program's line is its name."""
+class AnnouncedLeaf:
+    """What actions and conditions have in common; a plain text in the program's line is a leaf's name."""
+
+    plain: ClassVar[bool] = True
 
     name: str
     help: str = ""
     parameters: Mapping[str, tuple[str, ...]] = field(factory=dict)
-    results: tuple[Literal["success", "failure", "running"], ...] = ("success", "failure", "running")
+
+
+@frozen
+class AnnouncedAction(AnnouncedLeaf):
+    """An action, and what it may answer."""
+
+    results: tuple[Status, ...] = tuple(Status)
 
     @property
     def type(self) -> ActionType:
         """As grammarbt has it."""
-        results = frozenset(_STATUS[result] for result in self.results)
-        return ActionType(self.name, self.help, tuple(self.parameters.items()), results)
+        return ActionType(self.name, self.help, tuple(self.parameters.items()), frozenset(self.results))
 
 
 @frozen
-class AnnouncedCondition:
-    """A condition; a plain text in the program's line is its name. Purity is a promise, so it must be said."""
+class AnnouncedCondition(AnnouncedLeaf):
+    """A condition. Purity is a promise, so it must be said."""
 
-    name: str
-    help: str = ""
-    parameters: Mapping[str, tuple[str, ...]] = field(factory=dict)
     pure: bool = False
 
     @property
@@ -68,6 +68,7 @@ class Announcement:
         grammar: the default grammar: a name, or the text itself.
         references: trees to compare with.
         depends_on: as `Domain.depends_on`.
+        episodes: whether it can tell what happens in an episode, tick by tick.
     """
 
     protocol: Literal[1]
@@ -75,6 +76,7 @@ class Announcement:
     grammar: str = "general"
     references: tuple[Reference, ...] = ()
     depends_on: Literal["behaviour", "tree"] = "behaviour"
+    episodes: bool = False
 
     def vocabulary(self) -> Vocabulary:
         """The leaves, numbered in the order announced.
@@ -101,38 +103,9 @@ def read_announcement(line: bytes) -> Announcement:
     Raises:
         ValueError: it holds none; the text says what is wrong and where in it.
     """
+    announcement = structured(read_object(line), Announcement)
     try:
-        announcement = _CONVERTER.structure(read_object(line), Announcement)
         announcement.vocabulary()
-    except cattrs.BaseValidationError as error:
-        raise ValueError("; ".join(cattrs.transform_error(error, "$", _told))) from None
     except GrammarBTError as error:
         raise ValueError(str(error)) from None
     return announcement
-
-
-def _converter() -> cattrs.Converter:
-    converter = cattrs.Converter(forbid_extra_keys=True)
-    for plain in (str, bool):
-        converter.register_structure_hook(plain, _unchanged)
-    for leaf in (AnnouncedAction, AnnouncedCondition):
-        whole = converter.get_structure_hook(leaf)
-        converter.register_structure_hook(
-            leaf, lambda value, kind, whole=whole: kind(value) if isinstance(value, str) else whole(value, kind)
-        )
-    return converter
-
-
-def _unchanged(value: object, kind: type[Announced]) -> Announced:
-    if not isinstance(value, kind):
-        raise TypeError(value)
-    return value
-
-
-def _told(error: BaseException, kind: type | None) -> str:
-    if isinstance(error, AttributeError):  # what cattrs trips over when it expects an object
-        return "not a JSON object"
-    return cattrs.v.format_exception(error, kind)
-
-
-_CONVERTER = _converter()

@@ -13,7 +13,7 @@ def grammarbt_domains() -> list[DomainSpec]:
     return [
         DomainSpec(
             name="exec",
-            factory="grammarbt_exec.domain:Exec",
+            factory="grammarbt_exec.domain:make_exec",
             parameters="grammarbt_exec.parameters:ExecParameters",
             help="Any program, in any language, that speaks JSON lines on its standard input and output.",
         )

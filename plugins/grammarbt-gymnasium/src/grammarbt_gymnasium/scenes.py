@@ -1,4 +1,4 @@
-"""Pictures of the classic worlds, drawn from what is observed; of any other world, the observation in words."""
+"""Pictures of the worlds that are known, drawn from what is observed; of any other world, the observation in words."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING, Any
 from grammarbt.domain import Mark
 from grammarbt_gymnasium.features import Choice, Feature, Flag, Values
 from grammarbt_gymnasium.grids import cliff_walking_scene, frozen_lake_scene, taxi_scene
+from grammarbt_gymnasium.lander import lander_scene
+from grammarbt_gymnasium.minigrid import is_minigrid
+from grammarbt_gymnasium.rooms import rooms_scene
 from grammarbt_gymnasium.scene import Scene, line
 
 if TYPE_CHECKING:
@@ -19,8 +22,11 @@ if TYPE_CHECKING:
 
 def scene_of(environment: Environment, view: View) -> Scene:
     """How to draw the environment."""
-    make = SCENES.get(environment.name)
-    return make(environment.env.unwrapped) if make else words_scene(view)
+    world = environment.env.unwrapped
+    if environment.name in SCENES:
+        return SCENES[environment.name](world)
+    has_rooms = is_minigrid(environment.env.observation_space) and hasattr(world, "grid")
+    return rooms_scene(world) if has_rooms else words_scene(view)
 
 
 def cart_pole_scene(_: Any) -> Scene:  # noqa: ANN401 - gymnasium's worlds share no useful type
@@ -97,6 +103,7 @@ SCENES: dict[str, Callable[[Any], Scene]] = {
     "CartPole": cart_pole_scene,
     "MountainCar": mountain_car_scene,
     "Acrobot": acrobot_scene,
+    "LunarLander": lander_scene,
     "FrozenLake": frozen_lake_scene,
     "CliffWalking": cliff_walking_scene,
     "Taxi": taxi_scene,

@@ -11,8 +11,9 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Protocol
 
 from grammarbt.bt import Status, flatten
+from grammarbt.domain.chance import mix
 from grammarbt_marine.layouts import DROP_OFF
-from grammarbt_marine.plain_robot import PLACING, PlainRobot, mix
+from grammarbt_marine.plain_robot import PLACING, PlainRobot
 from grammarbt_marine.state import MINE, OBJECT, TARGET
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ class PlainEpisode:
         free = list(range(DROP_OFF + 1, len(self.roadmap.degree)))
         kinds = [kind for kind in (TARGET, MINE, OBJECT) for _ in range(self.roadmap.count[kind])]
         for place, kind in enumerate(kinds):
-            other = place + int(self.robots[0].uniform(PLACING, place) * (len(free) - place))
+            other = place + int(self.robots[0].chance(PLACING, place) * (len(free) - place))
             free[place], free[other] = free[other], free[place]
             self.content[free[place]] = kind
 

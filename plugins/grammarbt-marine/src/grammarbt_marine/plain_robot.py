@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from grammarbt.bt import Action, Leaf, Status
+from grammarbt.domain.chance import uniform
+from grammarbt_marine.kernel import LEAST_BELIEF
 from grammarbt_marine.layouts import DROP_OFF, START
 from grammarbt_marine.state import MINE, NOTHING, OBJECT, TARGET
 
@@ -16,10 +18,8 @@ if TYPE_CHECKING:
 
 SUCCESS, FAILURE, RUNNING = Status.SUCCESS, Status.FAILURE, Status.RUNNING
 PLACING, SENSING, WALKING = range(3)
-_SIXTY_FOUR_BITS = 2**64 - 1
 _FREE = frozenset({"go to comms", "resurface"})
 """Actions that take no step when they succeed."""
-_LEAST_BELIEF = 1e-12
 
 
 class PlainRobot:
@@ -56,9 +56,9 @@ class PlainRobot:
                 watcher.ended(self)
                 idle = True
 
-    def uniform(self, decides: int, item: int) -> float:
+    def chance(self, decides: int, item: int) -> float:
         """A number from 0 to below 1 for one decision of this step."""
-        return (mix(self.key + (decides << 48) + (self.sea.step << 24) + item) >> 11) / 2**53
+        return uniform(self.key + (decides << 48) + (self.sea.step << 24) + item)
 
     def sense(self) -> None:
         """Unless it is under way or lost, look around; in comms, learn what was reported."""
@@ -77,21 +77,21 @@ class PlainRobot:
         present = self.sea.content.get(vertex)
         for kind in (TARGET, MINE, OBJECT):
             chance = roadmap.detection[here][place][kind] if present == kind else self.rules.false_alarm[kind]
-            detected = self.uniform(SENSING, 3 * vertex + kind) < chance
+            detected = self.chance(SENSING, 3 * vertex + kind) < chance
             news = roadmap.gain if detected else roadmap.loss
             self.belief[kind][vertex] += news[here][place][kind]
 
     def _classify(self, vertex: int) -> None:
         right, wrong = self.rules.right, self.rules.wrong
         truth = self.sea.content.get(vertex, NOTHING)
-        beyond = self.uniform(SENSING, 3 * vertex) - right
+        beyond = self.chance(SENSING, 3 * vertex) - right
         reading = (truth + (0 if beyond < 0 else 1 + int(beyond / wrong) % 3)) % 4
         weights = [row[vertex] * (right if kind == reading else wrong) for kind, row in enumerate(self.belief)]
         total = 0.0
         for weight in weights:  # one after the other: sum() would round otherwise
             total += weight
         for row, weight in zip(self.belief, weights, strict=True):
-            row[vertex] = max(weight / total, _LEAST_BELIEF)
+            row[vertex] = max(weight / total, LEAST_BELIEF)
 
     def answer(self, leaf: Leaf) -> Status:
         """Do one step of an action, or ask a condition."""
@@ -143,7 +143,7 @@ class PlainRobot:
         return self._go_to_nearest([vertex for vertex in self.roadmap.sweep if vertex not in self.visited][:1])
 
     def _random_walk(self) -> Status:
-        edge = int(self.uniform(WALKING, 0) * self.roadmap.degree[self.vertex])
+        edge = int(self.chance(WALKING, 0) * self.roadmap.degree[self.vertex])
         self._move(self.roadmap.neighbours[self.vertex][edge])
         return RUNNING
 
@@ -237,14 +237,6 @@ class PlainRobot:
 def takes_step(leaf: Leaf, status: Status) -> bool:
     """Whether a leaf that answered so has taken a step."""
     return isinstance(leaf, Action) and not (status is SUCCESS and leaf.name in _FREE)
-
-
-def mix(number: int) -> int:
-    """Scramble 64 bits, as the compiled simulator does."""
-    number = (number + 1) * 0x9E3779B97F4A7C15 & _SIXTY_FOUR_BITS
-    number = (number ^ number >> 30) * 0xBF58476D1CE4E5B9 & _SIXTY_FOUR_BITS
-    number = (number ^ number >> 27) * 0x94D049BB133111EB & _SIXTY_FOUR_BITS
-    return number ^ number >> 31
 
 
 def _flagged(flags: Sequence[int]) -> list[int]:

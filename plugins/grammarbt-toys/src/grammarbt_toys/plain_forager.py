@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from grammarbt.bt import Condition, Leaf, Status
 from grammarbt.domain import Mark
+from grammarbt_toys.foraging_kernel import TURNING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
 
 SUCCESS, FAILURE, RUNNING = Status.SUCCESS, Status.FAILURE, Status.RUNNING
 DIRECTIONS = [(down, right) for down in (-1, 0, 1) for right in (-1, 0, 1) if (down, right) != (0, 0)]
-TURNING = 0.1
 
 Cell: TypeAlias = tuple[int, int]
 

@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from grammarbt.bt import Status
 from grammarbt.domain import Mark
 from grammarbt.domain.chance import mix, uniform
-from grammarbt_toys.plain_forager import DIRECTIONS, Forager, distance
+from grammarbt_toys.foraging_kernel import PLACING
+from grammarbt_toys.plain_forager import DIRECTIONS, Cell, Forager, distance
 
 if TYPE_CHECKING:
     from grammarbt.bt import Leaf
     from grammarbt_toys.parameters import ForagingParameters
-
-Cell: TypeAlias = tuple[int, int]
-
-_PLACING = 2**20
-"""Decisions with this number and above place things; below, they are the robots'."""
 
 
 class PlainForaging:
@@ -26,7 +22,7 @@ class PlainForaging:
 
     def __init__(self, parameters: ForagingParameters, scenario: int) -> None:
         self.parameters, self.time, self.delivered = parameters, 0, 0
-        self._key, self._item = mix(scenario), _PLACING
+        self._key, self._item = mix(scenario), PLACING
         self.hub = (parameters.size // 2, parameters.size // 2)
         self.robots = [self._placed_robot(number) for number in range(parameters.robots)]
         self.sites = [self._drawn_cell(parameters.size // 4) for _ in range(parameters.sites)]

@@ -8,8 +8,8 @@ from math import pi
 from grammarbt.bt import Action, Leaf, Status
 from grammarbt.domain import Mark
 from grammarbt.domain.chance import mix, uniform
+from grammarbt_toys.platformer_kernel import FREE, RANGE, RELOAD, RISE
 
-FREE, RISE, RANGE, RELOAD = 8, 2, 6, 6
 BEHIND, AHEAD, TOP = 6, 17, 3
 """Columns that the picture shows behind and ahead of the player, and rows above level ground."""
 

@@ -10,15 +10,10 @@ from attrs import frozen
 from grammarbt.bt import BehaviorTree, Fallback
 from grammarbt.bt import Sequence as SequenceNode
 from grammarbt.errors import GrammarError
-from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
+from grammarbt.grammar import BoundGrammar, Derivation
+from grammarbt.search.blockrows import BlockRows
 from grammarbt.search.blocks import Piece, piece_of
-from grammarbt.search.derivations import (
-    Step,
-    Template,
-    block_derivations,
-    complete,
-    leftmost,
-)
+from grammarbt.search.derivations import Template, block_derivations, complete
 
 SAMPLES = 20
 """Random words that must have the shape of a list before the language is taken for one of lists."""
@@ -38,8 +33,7 @@ class RootList:
 
     def __init__(self, grammar: BoundGrammar) -> None:
         self.grammar = grammar
-        self._templates: dict[tuple[int, ...], Template | None] = {}
-        self._known_steps: dict[SententialForm, list[tuple[int, SententialForm]]] = {}
+        self._rows = BlockRows(grammar)
         self._kinds: dict[Template, type[Fallback | SequenceNode]] = {}
         self._independent = all(_is_independent(grammar, block) for block in grammar.blocks)
 
@@ -75,11 +69,11 @@ class RootList:
 
     def allows(self, blocks: tuple[int, ...]) -> bool:
         """Whether the language has lists of these blocks in this order."""
-        return self._template(blocks) is not None
+        return self._rows.template(blocks) is not None
 
     def assemble(self, pieces: Sequence[Piece]) -> ListedTree | None:
         """The tree of these pieces, or None if it is not in the language."""
-        template = self._template(tuple(piece.block for piece in pieces))
+        template = self._rows.template(tuple(piece.block for piece in pieces))
         if template is None:
             return None
         derivation = complete(template, [piece.derivation for piece in pieces])
@@ -101,41 +95,6 @@ class RootList:
         except GrammarError:  # a constraint on the whole tree, such as its size
             return False
         return True
-
-    def _template(self, blocks: tuple[int, ...]) -> Template | None:
-        if blocks not in self._templates:
-            self._templates[blocks] = self._derived(blocks)
-        return self._templates[blocks]
-
-    def _derived(self, blocks: tuple[int, ...]) -> Template | None:
-        """A derivation of the row of blocks, found depth first; only what is not a block is rewritten."""
-        pending: list[tuple[SententialForm, tuple[Step, ...]]] = [(self.grammar.start(), ())]
-        seen = {self.grammar.start()}
-        while pending:
-            form, steps = pending.pop()
-            open_ = [at for at in self.grammar.positions(form) if form.symbols[at] not in self.grammar.blocks]
-            if not open_:
-                return leftmost(self.grammar, steps)
-            position = open_[0]
-            for production, after in self._steps(form, position):
-                if after not in seen and self._may_become(after, blocks):
-                    seen.add(after)
-                    pending.append((after, (*steps, (form, position, production))))
-        return None
-
-    def _steps(self, form: SententialForm, position: int) -> list[tuple[int, SententialForm]]:
-        if form not in self._known_steps:
-            legal = self.grammar.legal(form, position)
-            self._known_steps[form] = [(number, self.grammar.apply(form, number, position)) for number in legal]
-        return self._known_steps[form]
-
-    def _may_become(self, form: SententialForm, blocks: tuple[int, ...]) -> bool:
-        """Whether the blocks before the first other nonterminal are right, and not too many nonterminals are there."""
-        row = [form.symbols[at] for at in self.grammar.positions(form)]
-        first = next((at for at, symbol in enumerate(row) if symbol not in self.grammar.blocks), len(row))
-        whole = first == len(row)
-        fits = len(row) == len(blocks) if whole else len(row) <= len(blocks)
-        return fits and tuple(row[:first]) == blocks[:first]
 
 
 def _is_independent(grammar: BoundGrammar, block: int) -> bool:

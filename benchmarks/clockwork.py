@@ -20,6 +20,12 @@ def _group(name: str) -> Group:
     return Group(name, actions, (ConditionType(f"at {name}"), ConditionType(f"holding {name}")))
 
 
+def _large_group(name: str) -> Group:
+    verbs, states = ("fetch", "drop", "wash", "dry"), ("at", "holding", "clean", "near")
+    actions = tuple(ActionType(f"{verb} {name}") for verb in verbs)
+    return Group(name, actions, tuple(ConditionType(f"{state} {name}") for state in states))
+
+
 @frozen
 class Clockwork:
     """Returns depend on the scenario alone.
@@ -46,3 +52,9 @@ class Clockwork:
             time.sleep(self.seconds * len(scenarios))
         returns = (scenarios * 7919 % 997).astype(np.float64)
         return Outcome(returns, np.ones(policy.occurrences, dtype=np.int64))
+
+
+class LargeClockwork(Clockwork):
+    """Groups whose sub-trees are too many to list."""
+
+    vocabulary = Vocabulary(tuple(_large_group(name) for name in ("cup", "plate", "spoon", "fork")))

@@ -20,7 +20,7 @@ from grammarbt.plugins import PluginHost, PluginOptions, Registry
 from grammarbt.search import States
 from grammarbt_ge.mapping import Mapper, MappingName
 
-GENOMES, ROUNDS = 1_000, 7
+GENOMES, ROUNDS = 1_000, 50
 DOMAINS = ("marine", "ant", "pickplace", "taskselection")
 MAPPINGS: tuple[MappingName, ...] = ("linear", "structured")
 

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import strategies as st
 
 from grammarbt.bt import Action, Condition, Fallback, Not, Parallel, Sequence, Status
+from grammarbt.testing import trees_over
 
 FORBIDDEN = "[](){}\u2028\u2029\ufffe\uffff"
 AWKWARD = [
@@ -55,17 +56,6 @@ def _leaves():
     key = _names(more_forbidden="=,")
     arguments = st.dictionaries(key, key, max_size=2).map(lambda found: tuple(found.items()))
     return st.builds(Action, _names(), arguments) | st.builds(Condition, _names(), arguments)
-
-
-def trees_over(leaves):
-    """Random trees over some leaves, parallel nodes included."""
-
-    def grow(inner):
-        some = st.lists(inner, min_size=1, max_size=4).map(tuple)
-        parallel = some.flatmap(lambda parts: st.builds(Parallel, st.just(parts), st.integers(1, len(parts))))
-        return st.builds(Fallback, some) | st.builds(Sequence, some) | st.builds(Not, inner) | parallel
-
-    return st.recursive(leaves, grow, max_leaves=12)
 
 
 @pytest.fixture(scope="session")

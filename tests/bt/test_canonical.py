@@ -47,6 +47,26 @@ def exhaustive_behaviour(tree, interpret, conditions, history=()):
     return tuple(table)
 
 
+def either(*items):
+    """What one of the items derives; an item maps free leaves to its words, each with the leaves that are still free."""
+    return lambda free: [found for item in items for found in item(free)]
+
+
+def one_or_more(item):
+    def many(free):
+        return [
+            found
+            for text, rest in item(free)
+            for found in [(text, rest), *((f"{text} {more}", left) for more, left in many(rest))]
+        ]
+
+    return many
+
+
+def node(sign, first, second):
+    return lambda free: [(f"{sign}( {one} {two} )", left) for one, rest in first(free) for two, left in second(rest)]
+
+
 def words_of_table_one(actions, conditions):
     """Every sub-tree of a group by Table I, each leaf at most once; duplicates of ambiguous derivations removed."""
 
@@ -58,24 +78,6 @@ def words_of_table_one(actions, conditions):
 
     def check(free):
         return [(word, rest) for text, rest in condition(free) for word in (text, f"!{text}")]
-
-    def either(*items):
-        return lambda free: [found for item in items for found in item(free)]
-
-    def one_or_more(item):
-        def many(free):
-            return [
-                found
-                for text, rest in item(free)
-                for found in [(text, rest), *((f"{text} {more}", left) for more, left in many(rest))]
-            ]
-
-        return many
-
-    def node(sign, first, second):
-        return lambda free: [
-            (f"{sign}( {one} {two} )", left) for one, rest in first(free) for two, left in second(rest)
-        ]
 
     fallback = either(node("?", action, one_or_more(action)), node("?", one_or_more(check), action))
     right, left = one_or_more(either(fallback, action)), one_or_more(either(fallback, condition))

@@ -2,12 +2,11 @@
 
 import json
 import os
-import shutil
 import subprocess
 import sys
-import tomllib
 
 import pytest
+from installing import install
 
 from grammarbt.cli import main
 
@@ -16,20 +15,6 @@ def call(*arguments, cwd, site):
     environment = {**os.environ, "PYTHONPATH": str(site)}
     command = [sys.executable, "-m", "grammarbt", *arguments]
     return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True, timeout=120, check=False)
-
-
-def install(folder, site):
-    """What pip would put into site-packages, from the distribution's own metadata."""
-    project = tomllib.loads((folder / "pyproject.toml").read_text(encoding="utf-8"))
-    for package in project["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]:
-        shutil.copytree(folder / package, site / package.removeprefix("src/"))
-    name, version = project["project"]["name"], project["project"]["version"]
-    info = site / f"{name.replace('-', '_')}-{version}.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n", encoding="utf-8")
-    points = project["project"]["entry-points"]["grammarbt"]
-    lines = [f"{key} = {value}" for key, value in points.items()]
-    (info / "entry_points.txt").write_text("\n".join(["[grammarbt]", *lines, ""]), encoding="utf-8")
 
 
 @pytest.fixture

@@ -13,7 +13,6 @@ import contextlib
 import io
 import os
 import re
-import runpy
 import shlex
 import subprocess
 import sys
@@ -23,6 +22,7 @@ from pathlib import Path
 from typing import cast
 
 from attrs import define, frozen
+from installing import install
 
 from grammarbt.cli import main
 
@@ -110,10 +110,9 @@ class Terminal:
             file.write(block.text)
 
     def _install(self, line: str) -> str:
-        """As pip does it, without asking an index for what is there already."""
         self.site = self.folder / "site"
         given = shlex.split(line)[-1].partition("[")[0]
-        runpy.run_path(str(ROOT / "tests/cli/test_new.py"))["install"](self.folder / given, self.site)
+        install(self.folder / given, self.site)
         return ""
 
     def _own(self, line: str) -> tuple[str, str]:

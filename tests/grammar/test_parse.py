@@ -8,12 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from grammarbt.bt import Action, Condition, Fallback, Not, Parallel, Sequence, format_tree, parse
+from grammarbt.bt import Action, Condition, Fallback, Sequence, format_tree, parse
 from grammarbt.bt.vocabulary import ActionType, ConditionType, Group, Vocabulary
 from grammarbt.cli import main
 from grammarbt.errors import GrammarError
 from grammarbt.grammar import Source, bind, load_grammar, shipped_grammars
 from grammarbt.grammar.parse import NotInLanguageError, parse_tree, row_text, tree_tokens
+from grammarbt.testing import trees_over
 
 NESTED = '%declare ACTION\nstart: tree\ntree: "?" "(" tree+ ")" | "→" "(" tree tree+ ")" | ACTION\n'
 
@@ -52,17 +53,7 @@ def test_every_word_of_a_small_language_gets_its_first_derivation(bound):
 
 
 LEAF = st.sampled_from([Action("a1.0"), Action("a2.0"), Action("alien"), Condition("c1.0"), Condition("c2.0")])
-TREE = st.recursive(
-    LEAF,
-    lambda inner: st.one_of(
-        st.builds(Not, inner),
-        *(
-            st.builds(kind, st.lists(inner, min_size=1, max_size=3).map(tuple))
-            for kind in (Fallback, Sequence, lambda parts: Parallel(parts, 1))
-        ),
-    ),
-    max_leaves=8,
-)
+TREE = trees_over(LEAF, most=8)
 
 
 @pytest.mark.parametrize("name", ["scheide", "marine"])

@@ -40,6 +40,18 @@ def answers_for(tree, rng):
     return [rng.choice([1, 2, 3]) if isinstance(leaf, Action) else rng.choice([2, 3]) for leaf in leaves(tree)]
 
 
+def library_tree(tree, answer):
+    """The tree in the library, with one function behind every leaf."""
+    factory = behaviortreepy.BehaviorTreeFactory()
+    xml = btcpp.dumps(tree)
+    for tag in re.findall(r'<Action ID="(.*?)"', xml):
+        factory.register_simple_stateful_action(tag, answer, answer, lambda _: None)
+    for tag in re.findall(r'<Condition ID="(.*?)"', xml):
+        factory.register_simple_condition(tag, answer)
+    factory.register_behavior_tree_from_text(xml)
+    return factory.create_tree("MainTree")
+
+
 def library_log(tree, ticks, path):
     """What the library's own logger writes, and the order of its ticked leaves with their answers, tick by tick."""
     asked, now, occurrences = [], {}, {}
@@ -50,14 +62,7 @@ def library_log(tree, ticks, path):
         asked[-1].append((occurrence, now["answers"][occurrence]))
         return statuses.get(now["answers"][occurrence], behaviortreepy.NodeStatus.FAILURE)
 
-    factory = behaviortreepy.BehaviorTreeFactory()
-    xml = btcpp.dumps(tree)
-    for tag in re.findall(r'<Action ID="(.*?)"', xml):
-        factory.register_simple_stateful_action(tag, answer, answer, lambda _: None)
-    for tag in re.findall(r'<Condition ID="(.*?)"', xml):
-        factory.register_simple_condition(tag, answer)
-    factory.register_behavior_tree_from_text(xml)
-    made = factory.create_tree("MainTree")
+    made = library_tree(tree, answer)
     logger = behaviortreepy.FileLogger(made, str(path))
     numbered = re.findall(r'<(\w+) name="\w+" _uid="(\d+)"', path.read_bytes()[23:].decode(errors="replace"))
     uids = [int(uid) for tag, uid in numbered if re.fullmatch("[a-d]", tag)]

@@ -1,8 +1,7 @@
 import pytest
 from attrs import evolve
 
-from grammarbt.bt import parse
-from grammarbt.bt.canonical import behave_alike
+from grammarbt.bt import behave_alike, parse
 from grammarbt.errors import GrammarBTError
 from grammarbt.search import BlockDag, Stream, behaviour_of
 from grammarbt.testing import errands
@@ -63,6 +62,6 @@ def test_a_stream_gives_every_behaviour_once_before_any_again():
     given = LISTS.context()
     dag = BlockDag(given.grammar, given.grammar.blocks[0], behaviour_of(given), 1_000)
     stream = Stream(dag)
-    first = [stream.draw(given.rng, (), None)[1] for _ in range(dag.words - 4)]
+    first = [stream.draw(given.rng)[1] for _ in range(dag.words - 4)]
     assert len(set(first)) == len(first)
-    assert len({stream.draw(given.rng, (), None)[1] for _ in range(3 * dag.words)} | set(first)) == dag.words
+    assert len({stream.draw(given.rng)[1] for _ in range(3 * dag.words)} | set(first)) == dag.words

@@ -1,15 +1,13 @@
 import numpy as np
 import pytest
 
-from grammarbt.bt import leaves
-from grammarbt.bt.canonical import behave_alike, canonical_key
+from grammarbt.bt import behave_alike, canonical_key, leaves
 from grammarbt.grammar import Source, bind, load_grammar
 from grammarbt.search import (
     BlockDag,
     Evaluation,
     RootList,
     Runner,
-    Ucb1,
     behaviour_of,
     closes,
     judge,
@@ -31,7 +29,7 @@ def food(grammar, context):
 
 
 def words_of(dag, rng, n=400):
-    return {dag.draw(rng, (), None)[1].tree for _ in range(n)}
+    return {dag.draw(rng)[1].tree for _ in range(n)}
 
 
 def test_walks_draw_every_behaviour_by_one_word(grammar, food, rng):
@@ -50,7 +48,7 @@ def test_kept_words_are_the_shortest_of_their_behaviour(grammar, food, rng):
 
 
 def test_short_words_come_first(food, rng):
-    sizes = [food.draw(rng, (), None)[1].size for _ in range(400)]
+    sizes = [food.draw(rng)[1].size for _ in range(400)]
     counts = np.bincount(sizes)
     per_word = counts / np.maximum(np.bincount([len(leaves(tree)) for tree in words_of(food, rng, 3_000)]), 1)
     assert per_word[1] > per_word[3]
@@ -68,20 +66,10 @@ def test_blocks_too_large_to_list_are_sampled(grammar, context, rng):
     assert len(words_of(dag, rng)) > 3
 
 
-def test_credit_leads_the_walk(food, rng):
-    bandit = Ucb1(0.1, span=1.0)
-    path, piece = food.draw(rng, (), None)
-    for node in food.nodes.values():
-        bandit.credit(node, 0.0)
-    for node in path:
-        bandit.credit(node, 50.0)
-    assert food.draw(rng, (), bandit)[1].tree == piece.tree
-
-
 def test_a_prefix_is_kept(food, rng):
-    _, piece = food.draw(rng, (), None)
+    _, piece = food.draw(rng)
     for _ in range(20):
-        _, other = food.draw(rng, piece.derivation[:2], None)
+        _, other = food.draw(rng, piece.derivation[:2])
         assert other.derivation[:2] == piece.derivation[:2]
 
 
@@ -100,7 +88,7 @@ def test_limits_on_the_whole_tree_are_kept(grammar, vocabulary, context, rng):
     dags = [BlockDag(limited.grammar, block, behaviour_of(context()), 1_000) for block in limited.grammar.blocks]
     sizes = set()
     for _ in range(300):
-        pieces = [dag.draw(rng, (), None)[1] for dag in dags[:2]]
+        pieces = [dag.draw(rng)[1] for dag in dags[:2]]
         fits = sum(piece.size for piece in pieces) + 3 + not_nodes(pieces) <= 6
         sizes.add(fits)
         assert (limited.assemble(pieces) is not None) == fits

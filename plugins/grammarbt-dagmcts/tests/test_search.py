@@ -2,8 +2,7 @@ from itertools import count
 
 import pytest
 
-from grammarbt.bt import children, leaves, parse
-from grammarbt.bt.canonical import behave_alike
+from grammarbt.bt import behave_alike, children, leaves, parse
 from grammarbt.errors import SearcherError
 from grammarbt.grammar import Source, bind, load_grammar
 from grammarbt.search import Evaluation

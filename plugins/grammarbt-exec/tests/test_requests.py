@@ -11,10 +11,6 @@ from hypothesis import strategies as st
 from grammarbt.bt import (
     Action,
     Condition,
-    Fallback,
-    Not,
-    Parallel,
-    Sequence,
     Status,
     compile_policy,
     flatten,
@@ -24,6 +20,7 @@ from grammarbt.bt import (
 )
 from grammarbt.bt.formats.btcpp import loads
 from grammarbt.domain import ActionType, ConditionType, Group, Vocabulary
+from grammarbt.testing import trees_over
 from grammarbt_exec.messages import simulation
 
 NAMES = ("a", 'say "policy":1, "id":2', "grüßen", "back\\slash")
@@ -32,18 +29,7 @@ ENDS = {-1: Status.SUCCESS, -2: Status.FAILURE, -3: Status.RUNNING}
 
 LEAVES = st.sampled_from([Action(name) for name in NAMES] + [Condition(name) for name in NAMES])
 
-
-def control(children):
-    several = st.lists(children, min_size=1, max_size=3).map(tuple)
-    return st.one_of(
-        several.map(Fallback),
-        several.map(Sequence),
-        children.map(Not),
-        several.flatmap(lambda parts: st.integers(1, len(parts)).map(lambda least: Parallel(parts, least))),
-    )
-
-
-TREES = st.recursive(LEAVES, control, max_leaves=8)
+TREES = trees_over(LEAVES, most=8)
 
 
 def request_for(tree, scenarios=(0,)):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from grammarbt.bt import Action, Condition, Fallback, Sequence, format_tree, leaves, parse, walk
-from grammarbt.grammar import Source, bind, load_grammar
+from grammarbt.grammar import Source, bind, load_grammar, parse_tree
 from grammarbt_pickplace import hooks
 from grammarbt_pickplace.domain import PickPlace
 from grammarbt_pickplace.kernel import HAVE_BLOCK, LEAVES
@@ -20,11 +20,13 @@ from grammarbt_pickplace.tasks import TASKS
 MOST_NODES = 50
 
 
-@pytest.fixture(scope="module")
-def grammar():
-    (spec,) = hooks.grammarbt_grammars()
-    text = files(spec.package).joinpath(spec.resource).read_text(encoding="utf-8")
-    return load_grammar(Source(spec.name, text))
+def announced():
+    texts = {spec.name: files(spec.package).joinpath(spec.resource) for spec in hooks.grammarbt_grammars()}
+    return {name: load_grammar(Source(name, text.read_text(encoding="utf-8"))) for name, text in texts.items()}
+
+
+GRAMMARS = announced()
+PUBLISHED = GRAMMARS["pickplace-published"]
 
 
 def test_announcing_the_components_imports_neither_numpy_nor_numba():
@@ -33,8 +35,9 @@ def test_announcing_the_components_imports_neither_numpy_nor_numba():
     assert printed.strip() == "[]"
 
 
+@pytest.mark.parametrize("grammar", GRAMMARS.values(), ids=list(GRAMMARS))
 @pytest.mark.parametrize("task", TASKS.values(), ids=list(TASKS))
-def test_the_grammar_binds_to_every_task_within_a_second(task, grammar):
+def test_each_grammar_binds_to_every_task_within_a_second(task, grammar):
     begin = perf_counter()
     assert bind(grammar, task.vocabulary).start()
     assert perf_counter() - begin < 1.0
@@ -48,7 +51,8 @@ def in_search_space(tree):
     return {type(node) for node in controls} <= {Fallback, Sequence} and not any(nested) and not any(ends)
 
 
-def test_all_trees_of_the_grammar_are_in_the_published_search_space(grammar):
+@pytest.mark.parametrize("grammar", GRAMMARS.values(), ids=list(GRAMMARS))
+def test_all_trees_of_each_grammar_are_in_the_published_search_space(grammar):
     bound = bind(grammar, TASKS["S3"].vocabulary)
     rng = np.random.default_rng(0)
     sampled = [bound.tree(bound.derive(bound.sample(rng))) for _ in range(200)]
@@ -65,6 +69,23 @@ def test_the_reference_trees_are_in_the_published_search_space(task):
         assert sum(1 for _ in walk(tree)) <= MOST_NODES
         assert set(leaves(tree)) <= set(task.vocabulary.leaves)
         assert format_tree(tree) == reference.tree
+        assert parse_tree(bind(PUBLISHED, task.vocabulary), tree)
+
+
+FETCH = "[head down] [pick] [move to place] [place]"
+S2_TABLES = "→( [tuck] (table1 visited) [move to pick0] ) →( (table2 visited) [move to pick1] ) [move to pick2]"
+S3_TABLES = "→( [tuck] (cube0 placed) [move to pick2] ) →( (cube1 placed) [move to pick0] ) [move to pick1]"
+AS_GOOD = {
+    "S1": f"?( (task done) →( [localise] [head up] ?( (have block) →( [tuck] [move to pick0] ) ) {FETCH} ) )",
+    "S2": f"?( (task done) →( [head up] [localise] ?( (have block) {S2_TABLES} ) {FETCH} ) )",
+    "S3": f"?( (task done) →( [head up] [localise] ?( (have block) {S3_TABLES} ) {FETCH} ) )",
+}
+
+
+@pytest.mark.parametrize(("name", "task"), TASKS.items(), ids=list(TASKS))
+def test_the_grammar_has_a_tree_as_good_as_the_best_known(name, task, returns):
+    assert parse_tree(bind(GRAMMARS["pickplace"], task.vocabulary), parse(AS_GOOD[name]))
+    assert returns(name, AS_GOOD[name], 50).mean() >= returns(name, task.references[0].tree, 50).mean() - 1e-9
 
 
 def test_the_simulator_knows_every_leaf_of_the_vocabulary_and_no_other():

@@ -30,19 +30,18 @@ def test_chance_comes_down_over_its_share_of_the_budget():
     assert chances[2:] == pytest.approx([0.2, 0.2])
 
 
-def test_views_tell_more_and_more_states_apart():
+def test_the_view_of_the_place_tells_fewest_states_apart():
     found = []
     for view in VIEWS:
         searcher = QLearning(PUZZLE.context(budget=400), QLearningParameters(view=view))
         PUZZLE.drive(searcher, 300, width=4)
         found.append(searcher.metrics()["states"])
-    assert found == sorted(found)
-    assert found[0] > 1
+    assert 1 < found[0] < min(found[1:])
 
 
 def test_it_ends_when_nothing_new_comes_up():
     exact = evolve(PUZZLE, noise=0.0)
-    searcher = QLearning(exact.context(), QLearningParameters(first_chance=0.0, last_chance=0.0))
+    searcher = QLearning(exact.context(), QLearningParameters(first_chance=0.5, last_chance=0.0))
     proposals = exact.drive(searcher, 5_000)
     assert len(proposals) < 5_000
     assert searcher.ask(1) == []

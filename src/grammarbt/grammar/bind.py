@@ -13,6 +13,7 @@ from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.constraints import Costs, compile_costs
 from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError
 from grammarbt.grammar.expand import expand
+from grammarbt.grammar.grouping import grouped
 from grammarbt.grammar.model import KINDS, START, Grammar
 from grammarbt.grammar.reach import reachable
 from grammarbt.grammar.shape import levels, operators, shape_findings
@@ -107,9 +108,7 @@ def productive_of(productions: Sequence[PlainProduction]) -> tuple[PlainProducti
     """What is left when sets of leaves that are empty for some group are taken into account, reachable only."""
     ends = ending(productions)
     kept = [p for p in productions if p.lhs in ends and all(_ends(s, ends) for s in p.rhs)]
-    by_lhs: dict[Nonterminal, list[PlainProduction]] = {}
-    for production in kept:
-        by_lhs.setdefault(production.lhs, []).append(production)
+    by_lhs = grouped(kept, lambda production: production.lhs)
     start = next((production.lhs for production in productions if production.lhs.rule == START), None)
     if start is None or start not in by_lhs:
         message = "the domain has no leaves where this grammar needs them"

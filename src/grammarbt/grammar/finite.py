@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 import networkx as nx
 
 from grammarbt.grammar.bound import BoundGrammar
+from grammarbt.grammar.grouping import grouped
 from grammarbt.grammar.table import Production
 
 
@@ -46,9 +47,7 @@ def ever_open(bound: BoundGrammar) -> dict[int, frozenset[int]]:
 
 def _always_open(bound: BoundGrammar, productions: Iterable[Production]) -> dict[int, frozenset[int]]:
     """For each nonterminal, the constraints with a scope open in it on every way from the start."""
-    by_lhs: dict[int, list[Production]] = {}
-    for production in productions:
-        by_lhs.setdefault(production.lhs, []).append(production)
+    by_lhs = grouped(productions, lambda production: production.lhs)
     found = {bound.start_symbol: frozenset(bound.opens_of(bound.start_symbol))}
     queue = [bound.start_symbol]
     while queue:

@@ -13,6 +13,7 @@ import networkx as nx
 
 from grammarbt.bt.notation import BracketToken, OperatorToken
 from grammarbt.grammar.diagnostics import Diagnostic
+from grammarbt.grammar.grouping import grouped
 from grammarbt.grammar.model import START
 from grammarbt.grammar.symbols import Nonterminal, PlainProduction, Symbol
 
@@ -26,9 +27,7 @@ Arity: TypeAlias = tuple[int, int]
 
 def operators(productions: Sequence[PlainProduction]) -> dict[Nonterminal, frozenset[str]]:
     """The nonterminals that stand for an operator, each with the signs it may become."""
-    alternatives: dict[Nonterminal, list[PlainProduction]] = {}
-    for production in productions:
-        alternatives.setdefault(production.lhs, []).append(production)
+    alternatives = grouped(productions, lambda production: production.lhs)
     signs: dict[Nonterminal, frozenset[str]] = {}
     changed = True
     while changed:
@@ -96,9 +95,7 @@ def _bracket_findings(production: PlainProduction, signs: dict[Nonterminal, froz
 
 def _arities(rows: Sequence[PlainProduction], signs: dict[Nonterminal, frozenset[str]]) -> dict[Nonterminal, Arity]:
     """Least and most trees in a row, rules that others are made of first; nonterminals that never end are missing."""
-    own: dict[Nonterminal, list[PlainProduction]] = {}
-    for production in rows:
-        own.setdefault(production.lhs, []).append(production)
+    own = grouped(rows, lambda production: production.lhs)
     graph: nx.DiGraph[Nonterminal] = nx.DiGraph()
     graph.add_nodes_from(own)
     for production in rows:

@@ -17,6 +17,7 @@ from grammarbt.bt.model import Action, Condition
 from grammarbt.bt.notation import BracketToken, Token, format_leaf
 from grammarbt.bt.vocabulary import Vocabulary
 from grammarbt.grammar.constraints import Costs
+from grammarbt.grammar.grouping import grouped
 from grammarbt.grammar.model import Grammar
 
 CLOSE = -1
@@ -79,10 +80,7 @@ class ProductionTable:
     @cached_property
     def by_lhs(self) -> Mapping[int, tuple[Production, ...]]:
         """Each nonterminal's productions."""
-        found: dict[int, list[Production]] = {}
-        for production in self.productions:
-            found.setdefault(production.lhs, []).append(production)
-        return {lhs: tuple(own) for lhs, own in found.items()}
+        return {lhs: tuple(own) for lhs, own in grouped(self.productions, lambda each: each.lhs).items()}
 
     @cached_property
     def start_symbol(self) -> int:
@@ -165,9 +163,7 @@ def enclosing(
     productions: Iterable[Production], opens: Mapping[int, tuple[int, ...]], start: int
 ) -> dict[int, frozenset[int]]:
     """For each nonterminal, the constraints that may have a scope open around it, found by a walk from the start."""
-    by_lhs: dict[int, list[Production]] = {}
-    for production in productions:
-        by_lhs.setdefault(production.lhs, []).append(production)
+    by_lhs = grouped(productions, lambda production: production.lhs)
     found: dict[int, frozenset[int]] = {start: frozenset()}
     queue = [start]
     while queue:

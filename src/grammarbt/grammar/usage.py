@@ -12,6 +12,7 @@ from grammarbt.bt.vocabulary import Group, actions_of, conditions_of
 from grammarbt.grammar.bind import ending
 from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.diagnostics import Diagnostic
+from grammarbt.grammar.grouping import grouped
 from grammarbt.grammar.needs import EntangledError, Needs
 from grammarbt.grammar.reach import reachable
 from grammarbt.grammar.symbols import Nonterminal, PlainProduction
@@ -124,9 +125,7 @@ class Usage:
 
     def _empty_set(self, nonterminal: Nonterminal) -> str:
         """The set without leaves that keeps a nonterminal from ending."""
-        by_lhs: dict[Nonterminal, list[PlainProduction]] = {}
-        for production in self.written:
-            by_lhs.setdefault(production.lhs, []).append(production)
+        by_lhs = grouped(self.written, lambda production: production.lhs)
 
         def endless(lhs: Nonterminal) -> Iterator[Nonterminal]:
             rows = (production.rhs for production in by_lhs.get(lhs, ()))

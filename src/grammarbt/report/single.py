@@ -10,6 +10,7 @@ from grammarbt.report.charts import Chart, Line, Reading
 from grammarbt.report.markup import Markup, element, joined, page, paragraph, section, table
 from grammarbt.report.origin import origin
 from grammarbt.report.sparkline import sparkline
+from grammarbt.report.statistics import NORMAL_95
 from grammarbt.report.thinning import thinned
 from grammarbt.report.timing import read_timing
 from grammarbt.run.folder import RunFolder
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
     from grammarbt.report.evidence import Evidence
     from grammarbt.report.history import History
     from grammarbt.report.timing import Timing
-
-NORMAL_95 = 1.96
-"""Standard errors to either side that make a 95 % interval of a mean."""
 
 _MOST_READINGS = 200
 _WIDTH = 24

@@ -20,7 +20,9 @@ Values: TypeAlias = NDArray[np.float64]
 Estimator: TypeAlias = Callable[[Values], float]
 
 LEVEL = 0.95
-_Z = 1.959963984540054
+NORMAL_95 = 1.959963984540054
+"""Standard errors to either side that make a 95 % interval of a mean."""
+
 _RESAMPLES = 10_000
 _BLOCK = 2_000_000
 """Numbers drawn at once, so that many seeds do not fill the memory."""
@@ -63,9 +65,7 @@ def bootstrap(values: Sequence[float], estimator: Estimator, rng: np.random.Gene
     if len(data) == 0:
         return Interval(float("nan"), float("nan"), float("nan"))
     picks = rng.integers(len(data), size=(min(_RESAMPLES, max(1, _BLOCK // len(data))), len(data)))
-    found = np.array([estimator(data[pick]) for pick in picks])
-    low, high = np.quantile(found, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
-    return Interval(estimator(data), float(low), float(high))
+    return _percentile_interval(estimator(data), [estimator(data[pick]) for pick in picks])
 
 
 def share(hits: int, n: int) -> Interval:
@@ -73,8 +73,8 @@ def share(hits: int, n: int) -> Interval:
     if n == 0:
         return Interval(float("nan"), 0.0, 1.0)
     p = hits / n
-    centre = (p + _Z**2 / (2 * n)) / (1 + _Z**2 / n)
-    spread = _Z / (1 + _Z**2 / n) * sqrt(p * (1 - p) / n + _Z**2 / (4 * n**2))
+    centre = (p + NORMAL_95**2 / (2 * n)) / (1 + NORMAL_95**2 / n)
+    spread = NORMAL_95 / (1 + NORMAL_95**2 / n) * sqrt(p * (1 - p) / n + NORMAL_95**2 / (4 * n**2))
     return Interval(p, max(0.0, centre - spread), min(1.0, centre + spread))
 
 
@@ -84,9 +84,8 @@ def probability_of_improvement(ours: Sequence[float], theirs: Sequence[float], r
     beats = (a[:, None] > b[None, :]) + 0.5 * (a[:, None] == b[None, :])
     rows = rng.integers(len(a), size=(_RESAMPLES // 5, len(a)))
     columns = rng.integers(len(b), size=(_RESAMPLES // 5, len(b)))
-    found = np.array([beats[np.ix_(row, column)].mean() for row, column in zip(rows, columns, strict=True)])
-    low, high = np.quantile(found, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
-    return Interval(float(beats.mean()), float(low), float(high))
+    found = [float(beats[np.ix_(row, column)].mean()) for row, column in zip(rows, columns, strict=True)]
+    return _percentile_interval(float(beats.mean()), found)
 
 
 def mean_ranks(table: Values) -> Values:
@@ -122,3 +121,8 @@ def holm(p_values: Sequence[float]) -> list[float]:
         highest = max(highest, min(1.0, (len(p_values) - place) * p_values[at]))
         adjusted[at] = highest
     return adjusted
+
+
+def _percentile_interval(value: float, resampled: Sequence[float]) -> Interval:
+    low, high = np.quantile(resampled, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+    return Interval(value, float(low), float(high))

@@ -5,7 +5,7 @@ from grammarbt.search.bandits import Arm, Bandit, BanditName, ThresholdAscent, U
 from grammarbt.search.base import Evaluation, EvaluationStatus, Proposal, SearchContext, Searcher, Snapshotting
 from grammarbt.search.batches import Batches, BatchSearcher, Scenarios, Strategy, Width
 from grammarbt.search.behaviours import behaviour_of
-from grammarbt.search.blocks import Behaviour, BlockDag, BlockNode, Piece, PieceSource, Stream, piece_of
+from grammarbt.search.blocks import Behaviour, BlockDag, BlockNode, Piece, Stream, piece_of
 from grammarbt.search.climb import Climb, ClimbParameters
 from grammarbt.search.derivations import Step, block_derivations, leftmost, position_of
 from grammarbt.search.edits import Edits, Site
@@ -58,7 +58,6 @@ __all__ = [
     "Moves",
     "Neighbour",
     "Piece",
-    "PieceSource",
     "Proposal",
     "RootList",
     "Row",

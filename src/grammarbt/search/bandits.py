@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from bisect import insort
+from collections.abc import Callable, Sequence
 from math import log, sqrt
 from typing import Literal, Protocol
 
@@ -60,9 +62,24 @@ class Bandit(Protocol):
         """Urgency of an arm pulled `pulls` times out of `trials`; the arm has brought a reward."""
         ...
 
+    def most_urgent(self, arms: Sequence[Arm], trials: int) -> int:
+        """Place of the most urgent of some arms that were pulled as often as they brought rewards; the first of equals."""
+        ...
 
-class Ucb1:
-    """UCB1 (Auer, Cesa-Bianchi & Fischer 2002), with the bonus scaled to the range of the rewards seen.
+
+class _ByIndex(ABC):
+    @abstractmethod
+    def index(self, arm: Arm, pulls: float, trials: int) -> float:
+        """Urgency of an arm pulled `pulls` times out of `trials`; the arm has brought a reward."""
+
+    def most_urgent(self, arms: Sequence[Arm], trials: int) -> int:
+        """Place of the most urgent of some arms that were pulled as often as they brought rewards; the first of equals."""
+        urgencies = [self.index(arm, arm.visits, trials) for arm in arms]
+        return urgencies.index(max(urgencies))
+
+
+class _Ranged(_ByIndex):
+    """Scales a bonus to the range of the rewards seen.
 
     Args:
         c: exploration constant.
@@ -88,12 +105,22 @@ class Ucb1:
         """Count the reward."""
         arm.add(reward)
 
+
+class Ucb1(_Ranged):
+    """UCB1 (Auer, Cesa-Bianchi & Fischer 2002), with the bonus scaled to the range of the rewards seen."""
+
     def index(self, arm: Arm, pulls: float, trials: int) -> float:
         """Mean + c · span · √(2 ln trials / pulls)."""
         return arm.mean + self.c * self.span * sqrt(2.0 * log(max(trials, 1)) / pulls)
 
+    def most_urgent(self, arms: Sequence[Arm], trials: int) -> int:
+        """As by the index, in one go: it is asked for at every step."""
+        scale, twice_log = self.c * self.span, 2.0 * log(max(trials, 1))
+        urgencies = [arm.total / arm.visits + scale * sqrt(twice_log / arm.visits) for arm in arms]
+        return urgencies.index(max(urgencies))
 
-class Ucb1Tuned(Ucb1):
+
+class Ucb1Tuned(_Ranged):
     """UCB1-Tuned (same paper): the bonus shrinks with the arm's variance."""
 
     def index(self, arm: Arm, pulls: float, trials: int) -> float:
@@ -103,7 +130,7 @@ class Ucb1Tuned(Ucb1):
         return arm.mean + self.c * self.span * sqrt(ratio * min(0.25, variance + sqrt(2.0 * ratio)))
 
 
-class Ucb1Normal2(Ucb1):
+class Ucb1Normal2(_Ranged):
     """UCB1-Normal2 (Wissow & Asai 2024): the bonus is the arm's own deviation, which needs no known range."""
 
     def index(self, arm: Arm, pulls: float, trials: int) -> float:  # noqa: ARG002  the protocol's signature
@@ -111,7 +138,7 @@ class Ucb1Normal2(Ucb1):
         return arm.mean + self.c * sqrt(arm.variance * 2.0 * log(max(trials, 1)))
 
 
-class Ucb1Uniform(Ucb1):
+class Ucb1Uniform(_Ranged):
     """UCB1-Uniform (Asai & Wissow 2026, theorem 6): for rewards spread evenly over a range of the arm's own.
 
     An arm that always brings the same has no bonus; between arms of one range, the one pulled more often is preferred,
@@ -130,7 +157,7 @@ class Ucb1Uniform(Ucb1):
         return (low + high) / 2.0 + self.c * (high - low) * sqrt(6.0 * pulls * log(max(trials, 1)))
 
 
-class ThresholdAscent:
+class ThresholdAscent(_ByIndex):
     """Threshold ascent (Streeter & Smith 2006): an arm's value is its share among the s best rewards of all.
 
     Args:
@@ -172,5 +199,10 @@ def make_bandit(name: BanditName, c: float, span: float | None = None) -> Bandit
     """The rule of that name."""
     if name == "threshold-ascent":
         return ThresholdAscent()
-    rules = {"ucb1": Ucb1, "ucb1-tuned": Ucb1Tuned, "ucb1-normal2": Ucb1Normal2, "ucb1-uniform": Ucb1Uniform}
+    rules: dict[str, Callable[[float, float | None], Bandit]] = {
+        "ucb1": Ucb1,
+        "ucb1-tuned": Ucb1Tuned,
+        "ucb1-normal2": Ucb1Normal2,
+        "ucb1-uniform": Ucb1Uniform,
+    }
     return rules[name](c, span)

@@ -7,18 +7,17 @@ short words first. A larger one is derived as the walks go, by the productions' 
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from graphlib import CycleError, TopologicalSorter
 from itertools import accumulate
 from math import exp, log
-from typing import Protocol
 
 import numpy as np
 from attrs import define, field, frozen
 
 from grammarbt.bt import BehaviorTree, leaves
 from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
-from grammarbt.search.bandits import Arm, Bandit
+from grammarbt.search.bandits import Arm
 
 SHORTNESS = 0.2
 """How much less a word weighs per token."""
@@ -76,26 +75,6 @@ def piece_of(grammar: BoundGrammar, block: int, derivation: Derivation) -> Piece
     return Piece(block, derivation, form.symbols, tree, len(leaves(tree)))
 
 
-class PieceSource(Protocol):
-    """Draws sub-trees of a block."""
-
-    @property
-    def nodes(self) -> Mapping[SententialForm, BlockNode]:
-        """Partial sub-trees met so far."""
-        ...
-
-    @property
-    def weight(self) -> float:
-        """How much the block deserves when nothing is known."""
-        ...
-
-    def draw(
-        self, rng: np.random.Generator, prefix: Derivation, bandit: Bandit | None
-    ) -> tuple[list[BlockNode], Piece]:
-        """A sub-tree that begins along the prefix, and the nodes on the way to it."""
-        ...
-
-
 class BlockDag:
     """One block's partial sub-trees, with the credit they earned.
 
@@ -124,25 +103,11 @@ class BlockDag:
         """How much the block deserves when nothing is known: grows slowly with its words; it has some."""
         return log(self.words) + 0.7
 
-    def draw(
-        self, rng: np.random.Generator, prefix: Derivation, bandit: Bandit | None
-    ) -> tuple[list[BlockNode], Piece]:
-        """A word and the nodes on the way to it.
-
-        Starts along `prefix`, as far as it leads, goes on by the bandit as long as all children have earned credit,
-        and from there, or if there is no bandit, at random by weight.
-        """
+    def draw(self, rng: np.random.Generator, prefix: Derivation = ()) -> tuple[list[BlockNode], Piece]:
+        """A word and the nodes on the way to it: along `prefix`, as far as it leads, and from there at random by weight."""
         path, derivation = self._follow(prefix)
         while children := self._expanded(path[-1]):
-            unvisited = [child for child in children if not child[1].visits] if bandit else ()
-            if bandit and not unvisited:
-                production, node = _most_urgent(bandit, path[-1], children)
-            elif bandit and len(unvisited) < len(children):
-                production, node = _by_weight(rng, unvisited, list(accumulate(child[2] for child in unvisited)))
-                bandit = None
-            else:
-                production, node = _by_weight(rng, children, _bounds(path[-1], children))
-                bandit = None
+            production, node = _by_weight(rng, children, _bounds(path[-1], children))
             path.append(node)
             derivation.append(production)
         return path, self._piece(path[-1], derivation)
@@ -237,13 +202,6 @@ def _bounds(node: BlockNode, children: Sequence[tuple[int, BlockNode, float]]) -
     return node.bounds
 
 
-def _most_urgent(
-    bandit: Bandit, parent: BlockNode, children: list[tuple[int, BlockNode, float]]
-) -> tuple[int, BlockNode]:
-    trials = max(parent.visits, 1)
-    return max(children, key=lambda child: bandit.index(child[1], child[1].visits, trials))[:2]
-
-
 class Stream:
     """Draws each sub-tree of a block once before any comes again.
 
@@ -255,22 +213,10 @@ class Stream:
         self.dag = dag
         self._drawn: set[Piece] = set()
 
-    @property
-    def nodes(self) -> Mapping[SententialForm, BlockNode]:
-        """The DAG's."""
-        return self.dag.nodes
-
-    @property
-    def weight(self) -> float:
-        """The DAG's."""
-        return self.dag.weight
-
-    def draw(
-        self, rng: np.random.Generator, prefix: Derivation, bandit: Bandit | None
-    ) -> tuple[list[BlockNode], Piece]:
+    def draw(self, rng: np.random.Generator, prefix: Derivation = ()) -> tuple[list[BlockNode], Piece]:
         """A sub-tree that has its turn; along a prefix, any."""
         for _ in range(STREAM_DRAWS):
-            path, piece = self.dag.draw(rng, prefix, bandit)
+            path, piece = self.dag.draw(rng, prefix)
             if prefix or piece not in self._drawn:
                 self._drawn.add(piece)
                 return path, piece

@@ -132,17 +132,25 @@ class Edits:
 
     def insert(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:
         """A new item anywhere in a row."""
-        row = _row(site, rng)
-        return None if row is None else self._inserted(site, row, pick(self.rows.items[row.symbol], rng), rng)
+        gaps = [(row, at) for row in site.rows for at in range(len(row.items) + 1)]
+        if not gaps:
+            return None
+        row, at = pick(gaps, rng)
+        return self._opened(site, row, (at, at), rng)
+
+    def _opened(self, site: Site, row: Row, cut: tuple[int, int], rng: np.random.Generator) -> Template | None:
+        """The derivation with an item still to be derived in the place of some, of a kind that fits there."""
+        found = [self._spliced(site, row, cut, (item,)) for item in self.rows.items[row.symbol]]
+        fitting = [template for template in found if template is not None]
+        return pick(fitting, rng) if fitting else None
 
     def copy(self, site: Site, other: Site, rng: np.random.Generator) -> Template | None:
         """An item of another derivation, anywhere in a row."""
         source, row = _row(other, rng), _row(site, rng)
-        return None if source is None or row is None else self._inserted(site, row, pick(source.items, rng), rng)
-
-    def _inserted(self, site: Site, row: Row, item: Item, rng: np.random.Generator) -> Template | None:
+        if source is None or row is None:
+            return None
         at = below(len(row.items) + 1, rng)
-        return self._spliced(site, row, (at, at), (item,))
+        return self._spliced(site, row, (at, at), (pick(source.items, rng),))
 
     def _spliced(self, site: Site, row: Row, cut: tuple[int, int], items: Sequence[Item]) -> Template | None:
         """The derivation with items in the place of those from `cut[0]` to `cut[1]`, exclusive."""
@@ -163,7 +171,7 @@ class Edits:
         if row is None:
             return None
         at = below(len(row.items), rng)
-        return self._spliced(site, row, (at, at + 1), (pick(self.rows.items[row.symbol], rng),))
+        return self._opened(site, row, (at, at + 1), rng)
 
     def splice(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:
         """The items of a row inside an item, in the place of that item."""
@@ -240,7 +248,7 @@ class Edits:
             return None
         first = below(len(row.items), rng)
         last = first + 1 + below(min(LONGEST_SEGMENT, len(row.items) - first), rng)
-        template = self._spliced(site, row, (first, last), (pick(self.rows.items[row.symbol], rng),))
+        template = self._opened(site, row, (first, last), rng)
         return self._filled(template, row.items[first:last], rng)
 
     def convert(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:

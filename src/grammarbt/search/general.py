@@ -20,7 +20,7 @@ PROBED = 12
 """Random trees that are simulated in a few scenarios each."""
 SCENARIOS = 3
 QUIET = 0.1
-"""How much the scenarios may matter, as a share of how much the trees matter."""
+"""How much scenarios may matter, as a share of how much trees differ: of the spread of random ones, or the gain so far."""
 
 
 def search_any_grammar(context: SearchContext, parameters: ClimbParameters) -> GeneralSearch:
@@ -46,12 +46,14 @@ class GeneralSearch:
     def batches(self, width: Width) -> Batches[None]:
         """The search."""
         returns = yield from self._probe([self.annealed.edits.sample(self.annealed.rng) for _ in range(PROBED)])
-        spread = float(np.std([sum(own) for own in returns])) / SCENARIOS if returns else 0.0
-        best = max(returns, key=sum, default=(0.0,))
-        while spread > 0.0 and max(best) - min(best) <= QUIET * spread:
+        means = [_mean(own) for own in returns]
+        differ = float(np.std(means)) if means else 0.0
+        best = max(returns, key=_mean, default=(0.0,))
+        while differ > 0.0 and max(best) - min(best) <= QUIET * differ:
             place = yield from self.annealed.round(width)
             returns = yield from self._probe([place.derivation])
-            best = max(returns, key=sum, default=best)
+            best = max(returns, key=_mean, default=best)
+            differ = max(differ, _mean(best) - float(np.mean(means)))
         yield from self.raced.batches(width)
 
     def _probe(self, derivations: Sequence[Derivation]) -> Batches[list[tuple[float, ...]]]:
@@ -69,3 +71,7 @@ class GeneralSearch:
     def metrics(self) -> Mapping[str, float]:
         """Those of the strategy at work."""
         return (self.raced if self.raced.candidates(1) else self.annealed).metrics()
+
+
+def _mean(returns: Sequence[float]) -> float:
+    return sum(returns) / len(returns)

@@ -12,7 +12,7 @@ from attrs import define, field, frozen
 
 from grammarbt.grammar import Derivation
 from grammarbt.search.bandits import Arm, Bandit
-from grammarbt.search.blocks import BlockNode, Piece, PieceSource
+from grammarbt.search.blocks import BlockNode, Piece, Stream
 from grammarbt.search.race import Runner
 from grammarbt.search.rootlist import RootList
 from grammarbt.search.space import Memory, Neighbour
@@ -69,14 +69,14 @@ class ListParts:
 
     Attributes:
         lists: puts sub-trees together.
-        sources: draw the sub-trees of each block.
-        bandit: chooses edges, and ways down in the sources; None chooses by weight.
+        streams: draw the sub-trees of each block.
+        bandit: chooses edges; None chooses by weight.
         trim: whether sub-trees are added only where ticks arrive.
         known: per block, the sub-trees of the best lists so far.
     """
 
     lists: RootList
-    sources: Mapping[int, PieceSource]
+    streams: Mapping[int, Stream]
     bandit: Bandit | None
     trim: bool
     known: dict[int, list[Piece]] = field(factory=dict)
@@ -115,8 +115,8 @@ class ListNeighbours:
 
     def _edges(self) -> list[Edge]:
         present = [piece.block for piece in self.root]
-        adds = [Edge("add", block) for block in self.parts.sources if self._can_add(block)]
-        changes = [Edge("change", block) for block in self.parts.sources if block in present]
+        adds = [Edge("add", block) for block in self.parts.streams if self._can_add(block)]
+        changes = [Edge("change", block) for block in self.parts.streams if block in present]
         return [*adds, *changes, Edge("move"), Edge("delete")]
 
     def _can_add(self, block: int) -> bool:
@@ -129,17 +129,17 @@ class ListNeighbours:
             bandit = self.parts.bandit if attempt < INFORMED_DRAWS else None
             by_weight = bandit is None or self.rng.random() < BLIND_EDGE
             edge = self._edge_by_weight() if by_weight or bandit is None else self._urgent_edge(bandit)
-            neighbour = self._step(edge, bandit)
+            neighbour = self._step(edge)
             if neighbour is not None:
                 return neighbour
         return None
 
-    def _step(self, edge: Edge, bandit: Bandit | None) -> Neighbour | None:
+    def _step(self, edge: Edge) -> Neighbour | None:
         draft = Draft(list(self.root), self.reached)
-        self._take(edge, draft, bandit)
+        self._take(edge, draft)
         edges = 1
         while edges < MOST_EDGES and self.rng.random() < FURTHER_EDGE:
-            self._take(self._edge_by_weight(), draft, None)
+            self._take(self._edge_by_weight(), draft)
             edges += 1
         key = key_of(draft.pieces)
         listed = None if key in self.memory.closed else self.parts.lists.assemble(draft.pieces)
@@ -147,23 +147,23 @@ class ListNeighbours:
             return None
         return Neighbour(key, listed, (self.arms[edge], *draft.path) if edges == 1 else ())
 
-    def _take(self, edge: Edge, draft: Draft, bandit: Bandit | None) -> None:
+    def _take(self, edge: Edge, draft: Draft) -> None:
         if edge.kind == "add":
-            self._add(edge.block, draft, bandit)
+            self._add(edge.block, draft)
         elif edge.kind == "change":
-            self._change(edge.block, draft, bandit)
+            self._change(edge.block, draft)
         elif edge.kind == "move":
             self._move(self._below(len(draft.pieces)), draft)
         elif len(draft.pieces) > 1:
             del draft.pieces[self._below(len(draft.pieces))]
 
-    def _add(self, block: int, draft: Draft, bandit: Bandit | None) -> None:
-        piece = self._draw_piece(block, (), draft, bandit)
+    def _add(self, block: int, draft: Draft) -> None:
+        piece = self._draw_piece(block, (), draft)
         at = self._position(draft)
         end = at if self.rng.random() < INSERT else at + 1
         draft.pieces[at:end] = [piece]
 
-    def _change(self, block: int, draft: Draft, bandit: Bandit | None) -> None:
+    def _change(self, block: int, draft: Draft) -> None:
         places = [at for at, piece in enumerate(draft.pieces) if piece.block == block]
         if not places:
             return
@@ -172,7 +172,7 @@ class ListNeighbours:
         if self.rng.random() < UNDO:
             old = draft.pieces[at].derivation
             prefix = old[: max(0, len(old) - 1 - self._below(MOST_UNDONE))]
-        draft.pieces[at] = self._draw_piece(block, prefix, draft, bandit)
+        draft.pieces[at] = self._draw_piece(block, prefix, draft)
         if self.rng.random() < MOVE_CHANGED:
             self._move(at, draft)
 
@@ -180,11 +180,11 @@ class ListNeighbours:
         piece = draft.pieces.pop(at)
         draft.pieces.insert(self._position(draft), piece)
 
-    def _draw_piece(self, block: int, prefix: Derivation, draft: Draft, bandit: Bandit | None) -> Piece:
+    def _draw_piece(self, block: int, prefix: Derivation, draft: Draft) -> Piece:
         known = () if prefix else self.parts.known.get(block, [])
         if known and self.rng.random() < BORROWED:
             return known[self._below(len(known))]
-        path, piece = self.parts.sources[block].draw(self.rng, prefix, bandit)
+        path, piece = self.parts.streams[block].draw(self.rng, prefix)
         draft.path.extend(path)
         return piece
 
@@ -211,4 +211,4 @@ class ListNeighbours:
             return MOVE_WEIGHT
         if edge.kind == "delete":
             return DELETE_WEIGHT
-        return self.parts.sources[edge.block].weight * (ABSENT if edge.kind == "add" else 1.0)
+        return self.parts.streams[edge.block].dag.weight * (ABSENT if edge.kind == "add" else 1.0)

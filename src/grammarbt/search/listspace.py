@@ -10,7 +10,7 @@ from grammarbt.bt import BehaviorTree
 from grammarbt.search.bandits import Bandit
 from grammarbt.search.base import SearchContext
 from grammarbt.search.behaviours import behaviour_of
-from grammarbt.search.blocks import BlockDag, PieceSource
+from grammarbt.search.blocks import BlockDag, Stream
 from grammarbt.search.listmoves import ListNeighbours, ListParts
 from grammarbt.search.race import Runner
 from grammarbt.search.rootlist import ListedTree, RootList
@@ -29,7 +29,7 @@ class ListSpace:
 
     Args:
         lists: puts sub-trees together.
-        sources: draw the sub-trees of each block.
+        streams: draw the sub-trees of each block.
         bandit: chooses what to change; None chooses by weight.
         most: words of a block among which a start tree's sub-trees are looked for.
         trim: whether sub-trees that were never ticked are dropped, and others added only where ticks arrive.
@@ -38,19 +38,19 @@ class ListSpace:
     def __init__(
         self,
         lists: RootList,
-        sources: Mapping[int, PieceSource],
+        streams: Mapping[int, Stream],
         bandit: Bandit | None = None,
         *,
         most: int,
         trim: bool = True,
     ) -> None:
-        self.parts = ListParts(lists, sources, bandit, trim)
+        self.parts = ListParts(lists, streams, bandit, trim)
         self.most = most
 
     @property
     def nodes(self) -> int:
         """Nodes of the block DAGs."""
-        return sum(len(source.nodes) for source in self.parts.sources.values())
+        return sum(len(stream.dag.nodes) for stream in self.parts.streams.values())
 
     def sample(self, rng: np.random.Generator) -> ListedTree:
         """A random list."""

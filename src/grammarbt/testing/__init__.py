@@ -4,9 +4,9 @@ from grammarbt.testing.domains import DOMAIN_CHECKS
 from grammarbt.testing.playthroughs import Playthroughs
 from grammarbt.testing.puzzles import Puzzle, errands, letters
 from grammarbt.testing.searchers import SEARCHER_CHECKS
-from grammarbt.testing.simulators import tally, wild_tree
 from grammarbt.testing.subjects import DomainSubject, SearcherSubject
 from grammarbt.testing.suites import DomainConformance, SearcherConformance
+from grammarbt.testing.trees import tally, trees_over, wild_tree
 from grammarbt.testing.verdicts import Check, NonconformityError, Verdict, verdicts
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "errands",
     "letters",
     "tally",
+    "trees_over",
     "verdicts",
     "wild_tree",
 ]

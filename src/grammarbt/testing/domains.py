@@ -5,15 +5,19 @@ Each check raises `NonconformityError` with the case that shows the fault and wh
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from grammarbt.bt import BehaviorTree, Condition, Fallback, Not, Sequence, compile_policy, format_tree, leaves
 from grammarbt.bt.vocabulary import ActionType
-from grammarbt.domain import Returns, Watchable
+from grammarbt.domain import Frame, Returns, Watchable
+from grammarbt.domain.playthrough import WatchableDomain
 from grammarbt.testing.subjects import DomainSubject
 from grammarbt.testing.verdicts import Check, NonconformityError, require, untouched_randomness
 
 _FEW = 3
+_NO_EPISODES = "the domain has no episode()"
 
 
 def check_language_has_trees(subject: DomainSubject) -> str | None:
@@ -130,24 +134,17 @@ def check_episode_is_the_one_scored(subject: DomainSubject) -> str | None:
     """What `episode` shows ends with the return that `simulate` gives, and counts the same ticks."""
     domain = subject.domain
     if not isinstance(domain, Watchable):
-        return "the domain has no episode()"
-    for tree in subject.trees:
-        policy = compile_policy(tree, domain.vocabulary.index)
-        frames = domain.episode(policy, int(subject.scenarios[0])).frames
+        return _NO_EPISODES
+    advice = "derive both from the same world and the same draws"
+    for tree, frames in _watched(domain, subject):
         outcome = subject.simulate(tree, subject.scenarios[:1])
-        shown = np.zeros(len(leaves(tree)), dtype=np.int64)
-        for occurrence in (occurrence for frame in frames for occurrence, _ in frame.answers):
-            shown[occurrence] += 1
-        advice = "derive both from the same world and the same draws"
+        reward, value = frames[-1].reward if frames else "no frame", float(outcome.returns[0])
+        require(reward == value, f"{format_tree(tree)}: the episode ends with {reward}, simulate gives {value}", advice)
+        ticked = np.array([occurrence for frame in frames for occurrence, _ in frame.answers], dtype=np.int64)
+        shown = np.bincount(ticked, minlength=len(leaves(tree))).tolist()
         require(
-            bool(frames) and frames[-1].reward == float(outcome.returns[0]),
-            f"{format_tree(tree)}: the episode ends with {frames[-1].reward if frames else 'no frame'}, "
-            f"simulate gives {float(outcome.returns[0])}",
-            advice,
-        )
-        require(
-            shown.tolist() == np.asarray(outcome.ticks).tolist(),
-            f"{format_tree(tree)}: the episode ticks leaves {shown.tolist()} times, simulate {outcome.ticks}",
+            shown == np.asarray(outcome.ticks).tolist(),
+            f"{format_tree(tree)}: the episode ticks leaves {shown} times, simulate {outcome.ticks}",
             advice,
         )
     return None
@@ -157,18 +154,16 @@ def check_actions_answer_as_declared(subject: DomainSubject) -> str | None:
     """An action gives only the results that its declaration allows."""
     domain = subject.domain
     if not isinstance(domain, Watchable):
-        return "the domain has no episode()"
-    for tree in subject.trees:
-        row = leaves(tree)
-        policy = compile_policy(tree, domain.vocabulary.index)
-        for frame in domain.episode(policy, int(subject.scenarios[0])).frames:
-            for occurrence, status in frame.answers:
-                kind = domain.vocabulary.types[row[occurrence]]
-                require(
-                    not isinstance(kind, ActionType) or status in kind.results,
-                    f"[{kind.name}] answered {status.name}",
-                    "declare it: ActionType(..., results=frozenset({...})); trees are simplified by what is declared",
-                )
+        return _NO_EPISODES
+    for tree, frames in _watched(domain, subject):
+        kinds = [domain.vocabulary.types[leaf] for leaf in leaves(tree)]
+        for occurrence, status in (answer for frame in frames for answer in frame.answers):
+            kind = kinds[occurrence]
+            require(
+                not isinstance(kind, ActionType) or status in kind.results,
+                f"[{kind.name}] answered {status.name}",
+                "declare it: ActionType(..., results=frozenset({...})); trees are simplified by what is declared",
+            )
     return None
 
 
@@ -185,6 +180,13 @@ DOMAIN_CHECKS: tuple[Check[DomainSubject], ...] = (
     check_actions_answer_as_declared,
 )
 """Every check a domain is put to, the plainest first."""
+
+
+def _watched(domain: WatchableDomain, subject: DomainSubject) -> Iterator[tuple[BehaviorTree, tuple[Frame, ...]]]:
+    """The trees, each with the frames of an episode."""
+    for tree in subject.trees:
+        policy = compile_policy(tree, domain.vocabulary.index)
+        yield tree, domain.episode(policy, int(subject.scenarios[0])).frames
 
 
 def _returns(subject: DomainSubject, tree: BehaviorTree) -> Returns:

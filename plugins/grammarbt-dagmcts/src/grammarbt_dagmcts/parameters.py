@@ -26,7 +26,7 @@ class DagMctsParameters(ClimbParameters):
     bandit: BanditName = field(
         default="ucb1",
         validator=validators.in_(get_args(BanditName)),
-        metadata={"help": "rule that selects among the children of a node"},
+        metadata={"help": "rule that selects: among the children of a node, in the default what kind of change to try"},
     )
     c: float | None = field(
         default=None,

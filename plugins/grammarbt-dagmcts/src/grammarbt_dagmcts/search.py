@@ -16,6 +16,7 @@ from grammarbt.search import (
     RootList,
     SearchContext,
     Strategy,
+    Stream,
     block_dags,
     make_bandit,
     search_any_grammar,
@@ -60,7 +61,8 @@ def choose_strategy(context: SearchContext, parameters: DagMctsParameters) -> tu
         return search_any_grammar(context, parameters), None
     bandit = make_bandit(parameters.bandit, 0.4 if parameters.c is None else parameters.c, span=1.0)
     dags = block_dags(context, parameters.largest_block)
-    space = ListSpace(lists, dags, bandit, most=parameters.largest_block, trim=parameters.trim)
+    streams = {block: Stream(dag) for block, dag in dags.items()}
+    space = ListSpace(lists, streams, bandit, most=parameters.largest_block, trim=parameters.trim)
     return Climb(context, parameters, space), lambda: (context.grammar, dags.values())
 
 

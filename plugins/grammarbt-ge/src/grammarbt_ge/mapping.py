@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -20,41 +22,26 @@ CODONS = 2**16
 
 
 @define(eq=False)
-class Fork:
-    """A state with a choice.
-
-    Attributes:
-        state: the state.
-        gene: which of the genome's lists its codons come from.
-        choices: how many there are.
-        shortest: the choice that leads to the lowest sub-tree.
-        legs: what each choice leads to, once it has been made.
-    """
-
-    state: State = field(repr=False)
-    gene: int
-    choices: int
-    shortest: int
-    legs: list[Leg | None] = field(repr=False)
-
-
-@define(eq=False)
 class Leg:
-    """Steps up to the next choice.
+    """Steps up to the next choice, or until the next nonterminal comes from the stack.
 
     Attributes:
         steps: productions.
         waiting: nonterminals for the stack.
-        fork: the next choice; None where the next nonterminal comes from the stack.
-        last: the last step.
-        up: the leg that follows, for each nonterminal that came from there.
+        make: works out what follows a choice, or a nonterminal from the stack, and enters it into the tables below.
+        choices: what follows each choice, once it was made; empty where there is none.
+        gene: which of the genome's lists the choice's codon comes from.
+        shortest: the choice that leads to the lowest sub-tree.
+        above: what follows each nonterminal from the stack, once it came.
     """
 
     steps: Derivation
     waiting: tuple[int, ...]
-    fork: Fork | None
-    last: Transition = field(repr=False)
-    up: dict[int, Leg] = field(factory=dict, init=False, repr=False)
+    make: Callable[[int], Leg] = field(repr=False)
+    choices: list[Leg | None] = field(factory=list, repr=False)
+    gene: int = 0
+    shortest: int = 0
+    above: dict[int, Leg] = field(factory=dict, repr=False)
 
 
 class Mapper:
@@ -75,33 +62,38 @@ class Mapper:
         symbols = list(states.grammar.by_lhs)
         self._genes = {symbol: at if mapping == "structured" else 0 for at, symbol in enumerate(symbols)}
         self.lists = len(symbols) if mapping == "structured" else 1
-        self._forks: dict[State, Fork] = {}
+        self._choices: dict[State, list[Leg | None]] = {}
+        self._shared: dict[tuple[int, ...], tuple[int, ...]] = {}
         self._first = self._leg(_into(states.start), [])
 
     def derivation(self, genome: Genome) -> Derivation:
         """What the genome stands for."""
-        codons = list(map(iter, genome))
-        again = [self.wraps] * self.lists
+        read = [0] * self.lists
         derivation: list[int] = []
         stack: list[int] = []
         leg = self._first
         while True:
             derivation += leg.steps
-            stack += leg.waiting
-            fork = leg.fork
-            if fork is not None:
-                codon = next(codons[fork.gene], -1)
-                if codon < 0 < again[fork.gene]:
-                    again[fork.gene] -= 1
-                    codons[fork.gene] = iter(genome[fork.gene])
-                    codon = next(codons[fork.gene], -1)
-                at = codon % fork.choices if codon >= 0 else fork.shortest
-                leg = fork.legs[at] or self._chosen(fork, at)
+            if leg.waiting:
+                stack += leg.waiting
+            choices = leg.choices
+            if choices:
+                gene = leg.gene
+                at, codons = read[gene], genome[gene]
+                read[gene] = at + 1
+                choice = codons[at] % len(choices) if at < len(codons) else self._again(codons, at, leg)
+                leg = choices[choice] or leg.make(choice)
             elif stack:
                 symbol = stack.pop()
-                leg = leg.up.get(symbol) or self._above(leg, symbol)
+                leg = leg.above.get(symbol) or leg.make(symbol)
             else:
                 return tuple(derivation)
+
+    def _again(self, codons: tuple[int, ...], at: int, leg: Leg) -> int:
+        """The choice where every codon was read before."""
+        if at < len(codons) * (1 + self.wraps):
+            return codons[at % len(codons)] % len(leg.choices)
+        return leg.shortest
 
     def genome(self, derivation: Derivation, rng: np.random.Generator) -> Genome:
         """A genome that maps to the derivation; of all codons that make a choice, any is as likely."""
@@ -117,36 +109,41 @@ class Mapper:
             walk.take(production)
         return tuple(map(tuple, lists))
 
-    def _chosen(self, fork: Fork, at: int) -> Leg:
-        production = fork.state.productions[at]
-        leg = fork.legs[at] = self._leg(self.states.step(fork.state, production), [production])
-        return leg
-
-    def _above(self, leg: Leg, symbol: int) -> Leg:
-        above = leg.up[symbol] = self._leg(_into(self.states.up(leg.last, symbol)), [])
-        return above
-
     def _leg(self, step: Transition, steps: list[int]) -> Leg:
         """After a step, on as long as there is no choice."""
         waiting = list(step.waiting)
         while step.down is not None or waiting:
             state = step.down or self.states.up(step, waiting.pop())
             if len(state.productions) > 1:
-                return Leg(tuple(steps), tuple(waiting), self._fork(state), step)
+                return self._fork(state, steps, waiting)
             production = state.productions[0]
             step = self.states.step(state, production)
             steps.append(production)
             waiting += step.waiting
-        return Leg(tuple(steps), (), None, step)
+        above: dict[int, Leg] = {}
+        return Leg(self._one(steps), (), partial(self._above, above, step), above=above)
 
-    def _fork(self, state: State) -> Fork:
-        fork = self._forks.get(state)
-        if fork is None:
-            heights = [self.states.heights[production] for production in state.productions]
-            shortest = heights.index(min(heights))
-            fork = Fork(state, self._genes[state.symbol], len(heights), shortest, [None] * len(heights))
-            self._forks[state] = fork
-        return fork
+    def _fork(self, state: State, steps: list[int], waiting: list[int]) -> Leg:
+        """Steps to a state with a choice."""
+        choices = self._choices.setdefault(state, [None] * len(state.productions))
+        heights = [self.states.heights[production] for production in state.productions]
+        make = partial(self._chosen, choices, state)
+        shortest = heights.index(min(heights))
+        return Leg(self._one(steps), self._one(waiting), make, choices, self._genes[state.symbol], shortest)
+
+    def _chosen(self, choices: list[Leg | None], state: State, choice: int) -> Leg:
+        production = state.productions[choice]
+        found = choices[choice] = self._leg(self.states.step(state, production), [production])
+        return found
+
+    def _above(self, above: dict[int, Leg], step: Transition, symbol: int) -> Leg:
+        found = above[symbol] = self._leg(_into(self.states.up(step, symbol)), [])
+        return found
+
+    def _one(self, numbers: list[int]) -> tuple[int, ...]:
+        """One tuple for all that are equal: few differ, and the tables then fit into a processor's cache."""
+        found = tuple(numbers)
+        return self._shared.setdefault(found, found)
 
 
 def _into(state: State) -> Transition:

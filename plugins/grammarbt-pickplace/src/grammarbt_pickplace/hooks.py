@@ -22,12 +22,18 @@ def grammarbt_domains() -> list[DomainSpec]:
 
 @hookimpl
 def grammarbt_grammars() -> list[GrammarSpec]:
-    """The grammar of the published search space."""
+    """The grammar that the domain is searched with, and that of the published search space."""
     return [
         GrammarSpec(
             name="pickplace",
             package="grammarbt_pickplace",
             resource="pickplace.grammar",
-            help="Fallbacks and sequences in turn, over all leaves, none of them ending with a condition.",
-        )
+            help="Plans of actions and goals until the task is done; each action has one place in the tree.",
+        ),
+        GrammarSpec(
+            name="pickplace-published",
+            package="grammarbt_pickplace",
+            resource="published.grammar",
+            help="The published space: fallbacks and sequences in turn, none of them ending with a condition.",
+        ),
     ]

@@ -19,7 +19,7 @@ class QLearningParameters:
         default="state",
         validator=validators.in_(("place", "progress", "state")),
         metadata={
-            "help": "what a state is: place: parent, place among its children, and how many productions are legal; "
+            "help": "what a state is: place: parent, place among its children, and how many options there are; "
             "progress: depth, and what the open scopes have used; state: all that makes productions legal"
         },
     )

@@ -9,7 +9,8 @@ from attrs import define, field
 
 from grammarbt.bt import BehaviorTree
 from grammarbt.grammar import Derivation, parse_tree
-from grammarbt.search import Batches, BatchSearcher, Scorer, SearchContext, State, States, Width, pick
+from grammarbt.search import Batches, BatchSearcher, Scorer, SearchContext, State, States, Walk, Width, pick
+from grammarbt_qlearning.choices import Choices, Option
 from grammarbt_qlearning.parameters import QLearningParameters, View
 
 REPEATS = 1_000
@@ -18,8 +19,11 @@ REPEATS = 1_000
 LONGEST = 400
 """Steps of a derivation after which it takes the lowest way out: values learned so far may say to go on for ever."""
 
-Decision: TypeAlias = "tuple[Values, int]"
-"""A state's values, and the production chosen there."""
+Decision: TypeAlias = "tuple[Values, Option]"
+"""A state's values, and the option chosen there."""
+
+Derived: TypeAlias = "tuple[Derivation, list[Decision]]"
+"""A derivation, and the decisions in it."""
 
 
 class QLearning(BatchSearcher):
@@ -31,10 +35,10 @@ class QLearning(BatchSearcher):
 
 @define(eq=False)
 class Values:
-    """What is known in a state: per production its value, and how often it was chosen."""
+    """What is known in a state: per option its value, and how often it was chosen."""
 
-    value: dict[int, float] = field(factory=dict)
-    visits: dict[int, int] = field(factory=dict)
+    value: dict[Option, float] = field(factory=dict)
+    visits: dict[Option, int] = field(factory=dict)
 
     @property
     def best(self) -> float:
@@ -52,13 +56,14 @@ class Pending:
 
 
 class ValueSearch:
-    """Derives trees leftmost by the best known production, or by chance, and learns from their returns."""
+    """Derives trees leftmost by the best known option, or by chance, and learns from their returns."""
 
     def __init__(self, context: SearchContext, parameters: QLearningParameters) -> None:
         self.context = context
         self.parameters = parameters
         self.rng = context.rng
         self.states = States(context.grammar)
+        self.choices = Choices(self.states)
         self.scorer = Scorer(self.states)
         self.table: dict[Hashable, Values] = {}
         self.start = None if context.start is None else parse_tree(context.grammar, context.start)
@@ -78,34 +83,36 @@ class ValueSearch:
         first, last = self.parameters.first_chance, self.parameters.last_chance
         return first + min(done, 1.0) * (last - first)
 
-    def _derived(self, given: Derivation | None = None) -> tuple[Derivation, list[Decision]]:
+    def _derived(self, given: Derivation | None = None) -> Derived:
         """A derivation, or the given one, and the decisions that it takes."""
         walk, pending = self.states.walk(), [Pending(-1, 0, 0)]
         decisions: list[Decision] = []
-        chance = self.chance
         while (state := walk.state) is not None:
-            here = pending.pop()
-            production = state.productions[0]
-            if len(state.productions) > 1:
-                values = self.table.setdefault(_seen(self.parameters.view, state, here), Values())
-                production = self._choice(state, values, chance) if given is None else given[len(walk.derivation)]
-                if given is None and len(walk.derivation) > LONGEST:
-                    production = min(state.productions, key=self.states.heights.__getitem__)
-                decisions.append((values, production))
-            parts = len(self.states.parts[production])
-            pending += [Pending(production, place, here.depth + 1) for place in range(parts - 1, -1, -1)]
-            walk.take(production)
+            here, options = pending.pop(), self.choices.options(state)
+            option = options[0]
+            if len(options) > 1:
+                values = self.table.setdefault(_seen(self.parameters.view, state, here, len(options)), Values())
+                rest = given and given[len(walk.derivation) :]
+                option = self.choices.first(state, rest) if rest else self._choice(state, values, walk)
+                decisions.append((values, option))
+            for production in option:
+                walk.take(production)
+            parts = len(self.states.parts[option[-1]])
+            pending += [Pending(option[-1], place, here.depth + 1) for place in range(parts - 1, -1, -1)]
         return tuple(walk.derivation), decisions
 
-    def _choice(self, state: State, values: Values, chance: float) -> int:
-        if self.rng.random() < chance:
-            return state.draw(self.rng)
-        known = [values.value.get(production, float("inf")) for production in state.productions]
+    def _choice(self, state: State, values: Values, walk: Walk) -> Option:
+        """By chance, or the best known; what was never chosen comes first."""
+        if len(walk.derivation) > LONGEST:
+            return self.choices.lowest(state)
+        if self.rng.random() < self.chance:
+            return self.choices.draw(state, self.rng)
+        options = self.choices.options(state)
+        known = [values.value.get(option, float("inf")) for option in options]
         highest = max(known)
-        best = [production for production, value in zip(state.productions, known, strict=True) if value == highest]
-        return pick(best, self.rng)
+        return pick([option for option, value in zip(options, known, strict=True) if value == highest], self.rng)
 
-    def _simulate(self, derived: Sequence[tuple[Derivation, list[Decision]]]) -> Batches[None]:
+    def _simulate(self, derived: Sequence[Derived]) -> Batches[None]:
         """Learn from what is new; where all scenarios are alike a tree teaches once."""
         new = [(derivation, decisions) for derivation, decisions in derived if not self.scorer.is_settled(derivation)]
         self.repeated = 0 if new else self.repeated + 1
@@ -131,9 +138,9 @@ class ValueSearch:
         return {"states": len(self.table), "derivations": len(self.scorer.scores), "chance": self.chance}
 
 
-def _seen(view: View, state: State, here: Pending) -> Hashable:
+def _seen(view: View, state: State, here: Pending, options: int) -> Hashable:
     if view == "place":
-        return state.symbol, here.parent, here.place, len(state.productions)
+        return state.symbol, here.parent, here.place, options
     if view == "progress":
         return state.symbol, here.depth, state.form.used
     return state.form

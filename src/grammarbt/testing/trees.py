@@ -1,14 +1,18 @@
-"""What a compiled simulator is compared with: wild trees, and the same world in plain Python."""
+"""Random trees of all kinds, and how often a world in plain Python ticks their leaves."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence as Several
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from grammarbt.bt import Action, BehaviorTree, Condition, Fallback, Leaf, Not, Parallel, Sequence, leaves
 from grammarbt.domain.plain import World, play
+
+if TYPE_CHECKING:
+    from hypothesis.strategies import SearchStrategy
 
 _NEGATED, _PARALLEL, _ACTIONS = 0.15, 0.15, 2 / 3
 _MOST_CHILDREN = 4
@@ -33,6 +37,18 @@ def wild_tree(rng: np.random.Generator, vocabulary: Several[Leaf], size: int) ->
     if rng.random() < _PARALLEL:
         return Parallel(parts, int(rng.integers(1, len(parts), endpoint=True)))
     return Fallback(parts) if rng.random() < 1 / 2 else Sequence(parts)
+
+
+def trees_over(leaves: SearchStrategy[Leaf], most: int = 12) -> SearchStrategy[BehaviorTree]:
+    """Any nesting of all kinds of nodes over some leaves, at most so many, as a strategy of Hypothesis."""
+    from hypothesis import strategies as st  # noqa: PLC0415 - only tests that ask for it need Hypothesis
+
+    def grow(inner: SearchStrategy[BehaviorTree]) -> SearchStrategy[BehaviorTree]:
+        some = st.lists(inner, min_size=1, max_size=4).map(tuple)
+        parallel = some.flatmap(lambda parts: st.builds(Parallel, st.just(parts), st.integers(1, len(parts))))
+        return st.builds(Fallback, some) | st.builds(Sequence, some) | st.builds(Not, inner) | parallel
+
+    return st.recursive(leaves, grow, max_leaves=most)
 
 
 def tally(world: World, tree: BehaviorTree) -> tuple[float, list[int]]:

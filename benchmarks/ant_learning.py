@@ -1,6 +1,6 @@
 """How often does a searcher find a tree that eats all 89 pellets of the Santa Fe trail within 600 steps?
 
-    python benchmarks/ant_learning.py --seeds 100 150 [--searcher ge --searcher "qlearning view=place trace=0"]
+    python benchmarks/ant_learning.py --seeds 100 150 [--searcher ge --searcher "gp population=250"]
 
 A searcher's parameters may follow its name. Each run may simulate 25,000 trees, all of it for searching. Shares come with
 95 % intervals (Wilson, Journal of the American Statistical Association 1927). Seeds 0–9 are for tuning.
@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-SEARCHERS = ("random", "uct", "ge", "gp", "qlearning", "annealing", "dagmcts")
+SEARCHERS = ("random", "uct", "ge", "gp", "qlearning view=place trace=0", "annealing", "dagmcts")
 PELLETS, TRIALS, SEARCHED = 89, 25_000, 0.9
 Z = 1.96
 
@@ -29,13 +29,13 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, nargs=2, default=[100, 150], metavar=("FIRST", "END"))
     parser.add_argument("--searcher", action="append", metavar="'NAME [KEY=VALUE ...]'")
     arguments = parser.parse_args()
-    print("searcher              solved  share  95 % interval  mean pellets  seconds a run")
+    print("searcher                      solved  share  95 % interval  mean pellets  seconds a run")
     for searcher in arguments.searcher or SEARCHERS:
         found = [run(searcher, seed) for seed in range(*arguments.seeds)]
         solved = sum(one["value"] >= PELLETS for one in found)
         low, high = wilson(solved, len(found))
         pellets, seconds = (np.mean([one[key] for one in found]) for key in ("value", "seconds"))
-        row = f"{searcher:20} {solved:3}/{len(found):<3}  {solved / len(found):5.2f}  {low:.2f} – {high:.2f}"
+        row = f"{searcher:28} {solved:3}/{len(found):<3}  {solved / len(found):5.2f}  {low:.2f} – {high:.2f}"
         print(f"{row}  {pellets:12.1f}  {seconds:13.1f}", flush=True)
 
 

@@ -23,7 +23,11 @@ NESTED = (
     'fallback: "?" "(" tries ")"\ntries: CONDITION tries | ACTION tries | sequence tries | ACTION | sequence\n'
     'sequence: "→" "(" steps ")"\nsteps: CONDITION steps | ACTION steps | fallback steps | ACTION | fallback\n'
 )
-OWN = {"right": RIGHT, "left": LEFT, "nested": NESTED}
+WAYS = (
+    '%declare ACTION CONDITION\nstart: "?" "(" ways ")"\nways: guarded ways | ACTION\n'
+    'guarded: "→" "(" CONDITION ACTION ")"\n'
+)
+OWN = {"ways": WAYS, "right": RIGHT, "left": LEFT, "nested": NESTED}
 GOAL = parse("?( →( (c) ?( (d) [a] ) [b] ) [e] )")
 
 
@@ -62,6 +66,18 @@ def test_every_kind_of_edit_changes_nested_trees(kind):
         found = None if template is None else edits.short.complete(template, rng)
         changed += found is not None and found != site.tree.steps
     assert changed > 10
+
+
+def test_an_inserted_item_is_of_a_kind_that_fits_its_place():
+    edits, rng = EDITS["ways"], np.random.default_rng(0)
+    site = edits.site(edits.sample(rng))
+    (row,) = site.rows
+    found = [edits.insert(site, site, rng) for _ in range(100)]
+    longer = [template for template in found if template is not None]
+    assert len(longer) > 30  # nothing may stand behind the last item
+    for template in longer:
+        (changed,) = edits.site(edits.short.complete(template, rng)).rows
+        assert len(changed.items) == len(row.items) + 1
 
 
 @pytest.mark.parametrize("name", EDITS)
@@ -184,3 +200,13 @@ def test_a_good_tree_that_depends_on_the_scenario_ends_the_annealing():
     strategy, _ = run(general, value, episodes=1_500)
     assert strategy.raced.begun
     assert strategy.annealed.rounds >= 1
+
+
+def test_scenarios_that_matter_little_beside_the_gain_do_not_end_the_annealing():
+    def value(tree, scenario):
+        known = likeness(tree)
+        return 20.0 * known + (9.0 * (scenario % 2) if known > 4 else 0.0)
+
+    strategy, _ = run(general, value, episodes=1_500)
+    assert max(20.0 * likeness(tree) for tree in strategy.candidates(3)) > 80
+    assert not strategy.raced.begun

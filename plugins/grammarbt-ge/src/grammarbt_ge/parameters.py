@@ -13,6 +13,11 @@ from grammarbt_ge.mapping import MappingName
 class GeParameters(EvolutionParameters):
     """How genomes are read and bred."""
 
+    tournament: int = field(
+        default=3,
+        validator=validators.ge(1),
+        metadata={"help": "individuals of which the best becomes a parent"},
+    )
     mapping: MappingName = field(
         default="linear",
         validator=validators.in_(("linear", "structured")),

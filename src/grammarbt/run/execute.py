@@ -182,8 +182,9 @@ class _Run:
         candidates = guarded("candidates", lambda: self.setup.searcher.candidates(MAX_CANDIDATES))
         if not isinstance(cast("object", candidates), Sequence) or len(candidates) > MAX_CANDIDATES:
             raise SearcherError("candidates must return a list of trees, no more than asked for", "best first")
-        halving = SuccessiveHalving(self.evaluator, self.record_selection)
-        return halving.best(candidates or [incumbent], self.spec.selection_episodes)
+        if incumbent not in candidates:  # a searcher that was stopped in the middle may not have been told of it
+            candidates = [*candidates[: MAX_CANDIDATES - 1], incumbent]
+        return SuccessiveHalving(self.evaluator, self.record_selection).best(candidates, self.spec.selection_episodes)
 
     def record_selection(self, trial: Trial) -> None:
         self.recorder.selection(trial)

@@ -26,6 +26,7 @@ PUBLIC = (
     "grammarbt.domain.chance",
     "grammarbt.domain.plain",
     "grammarbt.domain.playthrough",
+    "grammarbt.domain.sources",
     "grammarbt.grammar",
     "grammarbt.plugins",
     "grammarbt.plugins.events",

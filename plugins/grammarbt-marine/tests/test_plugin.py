@@ -13,7 +13,7 @@ from grammarbt.grammar import Source, bind, load_grammar, parse_tree
 from grammarbt.plugins.parameters import build
 from grammarbt_marine import hooks
 from grammarbt_marine.domain import Marine
-from grammarbt_marine.kernel import IN_COMMS
+from grammarbt_marine.kernel.leaves import IN_COMMS
 from grammarbt_marine.parameters import MarineParameters
 from grammarbt_marine.presets import PRESETS
 from grammarbt_marine.program import LEAVES

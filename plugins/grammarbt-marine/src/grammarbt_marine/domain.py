@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from grammarbt.domain import Outcome
-from grammarbt_marine import kernel
+from grammarbt_marine.kernel.episodes import simulate
 from grammarbt_marine.parameters import MarineParameters
 from grammarbt_marine.program import LEAVES, make_program
 from grammarbt_marine.references import EXTENDED_REFERENCES, REFERENCES
@@ -59,7 +59,7 @@ class Marine:
         room = Room(*map(np.empty_like, self._room))  # its own, so that threads may share the domain
         numbers = np.array(scenarios, dtype=np.int64)  # read-only or strided arrays would be compiled for anew
         episodes = Episodes(numbers, np.empty(numbers.shape))
-        kernel.simulate(program, room, self.roadmaps, self.rules, episodes)
+        simulate(program, room, self.roadmaps, self.rules, episodes)
         return Outcome(episodes.returns, program.ticks)
 
     def episode(self, policy: Policy, scenario: int) -> Episode:

@@ -1,7 +1,7 @@
 """The simulator again, in plain Python: to read, to compare with, and to watch, as it says what happens.
 
 It shares the tables of roadmaps and rules with the compiled simulator, so that both add the same floating-point
-numbers, and nothing else; the rules themselves are told in `kernel.py`.
+numbers, and nothing else; the rules themselves are told in `kernel`.
 """
 
 from __future__ import annotations

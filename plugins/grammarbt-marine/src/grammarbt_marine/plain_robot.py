@@ -1,4 +1,4 @@
-"""A robot in plain Python: what it senses, and what its leaves do; the rules are told in `kernel.py`."""
+"""A robot in plain Python: what it senses, and what its leaves do; the rules are told in `kernel`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from grammarbt.bt import Action, Leaf, Status
 from grammarbt.domain.chance import uniform
-from grammarbt_marine.kernel import LEAST_BELIEF
+from grammarbt_marine.kernel.sensing import LEAST_BELIEF
 from grammarbt_marine.layouts import DROP_OFF, START
 from grammarbt_marine.state import MINE, NOTHING, OBJECT, TARGET
 

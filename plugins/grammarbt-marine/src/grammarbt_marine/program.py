@@ -1,4 +1,4 @@
-"""A policy in the form that compiled code reads, and chance as a function: what the simulator stands on."""
+"""A policy in the form that compiled code reads, and how that is compiled."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grammarbt.bt import Status
+from grammarbt.domain.sources import stamped
 from grammarbt_marine.records import Records
 
 if TYPE_CHECKING:
@@ -62,10 +63,5 @@ def compiled(function: Function) -> Function:
 
 
 def cached(function: Function) -> Function:
-    """`compiled`, with all that it calls kept on disk."""
-    return cast("Function", numba.njit(cache=True)(function))
-
-
-def numpy_integers(*numbers: int) -> tuple[int, ...]:
-    """The numbers as NumPy's: numba compiles a function anew for each of Python's that it is called with."""
-    return tuple(np.array(numbers, dtype=np.int64))
+    """`compiled`, with all that it calls kept on disk until a source of this package changes."""
+    return cast("Function", numba.njit(cache=True)(stamped(function)))

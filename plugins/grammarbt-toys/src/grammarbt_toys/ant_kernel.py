@@ -7,7 +7,7 @@ nothing took a step costs one. The episode ends with the last step, also in the 
 
 from __future__ import annotations
 
-from grammarbt_toys.program import FAILURE, SUCCESS, Program, compiled
+from grammarbt_toys.program import FAILURE, SUCCESS, Program, cached, compiled
 from grammarbt_toys.trail import Food
 
 LEAVES = ("turn left", "turn right", "move forward", "food ahead")
@@ -18,7 +18,7 @@ EAST = 0
 """Headings count clockwise: east, south, west, north."""
 
 
-@compiled
+@cached
 def simulate(program: Program, food: Food, steps: int) -> int:
     """Run an episode from (0, 0), facing east.
 

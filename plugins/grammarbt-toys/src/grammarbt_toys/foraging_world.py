@@ -1,4 +1,4 @@
-"""The world of a swarm as compiled functions see it."""
+"""The world of a swarm as compiled functions see it, how it begins, and where food lies in it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,14 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from grammarbt_toys.chance import uniform
+from grammarbt_toys.program import inlined
+
 UNKNOWN = -1
+STAYING = 4
+"""The number of the middle of nine directions, which leads nowhere."""
+PLACING = 2**20
+"""Decisions with this number and above place things; below, they are the robots'."""
 
 ROBOT = np.dtype(
     [
@@ -59,3 +66,60 @@ def make_world(size: int, robots: int, sites: int, food: int, sight: int) -> Wor
         robots=np.zeros(robots, dtype=ROBOT),
         sight=sight,
     )
+
+
+@inlined
+def begin(world: World, pieces: int, scenario: int) -> None:
+    """Put the robots anywhere and the sites anywhere far from the hub."""
+    size, item = len(world.food), PLACING
+    world.food[:] = 0
+    world.filled[0] = 0
+    for number in range(len(world.robots)):
+        robot = world.robots[number]
+        robot.row, robot.column, item = _free_cell(size, 0, scenario, item)
+        robot.down, robot.right = direction(uniform(scenario, 0, number))
+        robot.carrying = robot.knows_hub = False
+        robot.site_row = robot.site_column = UNKNOWN
+    for site in range(len(world.sites)):
+        row, column, item = _free_cell(size, size // 4, scenario, item)
+        world.sites[site] = row, column
+        add_food(world, row, column, pieces)
+
+
+@inlined
+def _free_cell(size: int, least: int, scenario: int, item: int) -> tuple[int, int, int]:
+    """Draw a cell that is so far from the hub; gives it and the number of the next decision."""
+    while True:
+        row, column = int(uniform(scenario, 0, item) * size), int(uniform(scenario, 0, item + 1) * size)
+        item += 2
+        if max(abs(row - size // 2), abs(column - size // 2)) >= least:
+            return row, column, item
+
+
+@inlined
+def direction(chance: float) -> tuple[int, int]:
+    """One of the eight directions, row by row."""
+    number = int(chance * 8)
+    number += number >= STAYING
+    return number // 3 - 1, number % 3 - 1
+
+
+@inlined
+def add_food(world: World, row: int, column: int, pieces: int) -> None:
+    """Lay food into the cell."""
+    if world.food[row, column] == 0:
+        world.piles[world.filled[0]] = row, column
+        world.filled[0] += 1
+    world.food[row, column] += pieces
+
+
+@inlined
+def take_food(world: World, row: int, column: int) -> None:
+    """Take a piece of food from the cell."""
+    world.food[row, column] -= 1
+    if world.food[row, column] == 0:
+        pile = 0
+        while world.piles[pile, 0] != row or world.piles[pile, 1] != column:
+            pile += 1
+        world.filled[0] -= 1
+        world.piles[pile] = world.piles[world.filled[0]]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from grammarbt.bt import Status
 from grammarbt.domain import Mark
 from grammarbt.domain.chance import mix, uniform
-from grammarbt_toys.foraging_kernel import PLACING
+from grammarbt_toys.foraging_world import PLACING
 from grammarbt_toys.plain_forager import DIRECTIONS, Cell, Forager, distance
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from grammarbt.domain import Scenarios
 from grammarbt_toys.chance import uniform
-from grammarbt_toys.program import FAILURE, SUCCESS, Program, compiled, inlined
+from grammarbt_toys.program import FAILURE, SUCCESS, Program, cached, compiled, inlined
 
 RIGHTS, UPS = (-1, 0, 1, 2, 3, 4), (-1, 0, 1, 2)
 """The receptive field: cells to the right of the player and above it."""
@@ -54,7 +54,7 @@ class World(NamedTuple):
     player: NDArray[np.int64]
 
 
-@compiled
+@cached
 def simulate(program: Program, world: World, steps: int, scenarios: Scenarios) -> NDArray[np.float64]:
     """Run an episode per scenario; gives the columns that the player came forward.
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grammarbt.bt import Status
+from grammarbt.domain.sources import stamped
 
 if TYPE_CHECKING:
     from grammarbt.bt import Policy
@@ -45,13 +46,15 @@ def make_program(policy: Policy) -> Program:
 
 
 def compiled(function: Function) -> Function:
-    """`numba.njit`, cached on disk, that keeps the function's type.
-
-    The cache notices a change only in the file of the function that is called, so each simulator is one file.
-    """
-    return cast("Function", numba.njit(cache=True)(function))
+    """`numba.njit` that keeps the function's type; to be called by compiled functions only."""
+    return cast("Function", numba.njit(function))
 
 
 def inlined(function: Function) -> Function:
     """`compiled`, for what is called most: as part of its caller it need not count references to the world's arrays."""
-    return cast("Function", numba.njit(cache=True, forceinline=True)(function))
+    return cast("Function", numba.njit(forceinline=True)(function))
+
+
+def cached(function: Function) -> Function:
+    """`compiled`, with all that it calls kept on disk until a source of this package changes."""
+    return cast("Function", numba.njit(cache=True)(stamped(function)))

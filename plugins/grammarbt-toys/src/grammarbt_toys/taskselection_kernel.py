@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from grammarbt_toys.program import FAILURE, RUNNING, SUCCESS, Program, compiled
+from grammarbt_toys.program import FAILURE, RUNNING, SUCCESS, Program, cached, compiled
 
 
-@compiled
+@cached
 def first_actions(program: Program, conditions: int, actions: int) -> NDArray[np.int64]:
     """Tick once in every truth assignment of the conditions.
 

@@ -26,9 +26,7 @@ def chosen(tmp_path):
     def run(candidates):
         code = tmp_path / "forgetful.py"
         code.write_text(FORGETFUL.format(candidates=candidates), encoding="utf-8")
-        spec = RunSpec(
-            domain=DOMAIN, searcher=f"{code}:Forgetful", budget=200, validation=2, out=str(tmp_path / "run")
-        )
+        spec = RunSpec(domain=DOMAIN, searcher=f"{code}:Forgetful", budget=200, validation=2, out=str(tmp_path / "run"))
         setup = prepare(spec, Registry(PluginHost(PluginOptions(), print)))
         best = []
 

@@ -11,25 +11,23 @@ from grammarbt_dagmcts import hooks
 MCDAGS = {"preset": "mcdags", "round_length": 20, "search_rounds": 2}
 
 
-def forms(searcher):
-    return [node.form for node in searcher.strategy.search.dag.nodes]
-
-
 @pytest.mark.parametrize("preset", ["paper", "mcdags"])
 def test_without_the_dag_equal_forms_stay_apart(search, preset):
-    merged, _ = search(300, preset=preset, restarts=False)
-    tree, _ = search(300, preset=preset, restarts=False, dag=False)
-    assert len(set(forms(merged))) == len(forms(merged))
-    assert len(set(forms(tree))) < len(forms(tree))
-    assert max(len(node.parents) for node in merged.strategy.search.dag.nodes) > 1
-    assert {len(node.parents) for node in tree.strategy.search.dag.nodes} == {0, 1}
-    assert tree.metrics()["edges"] == tree.metrics()["nodes"] - 1
+    merged = search(300, preset=preset, restarts=False)[0].strategy.search.dag
+    searcher, _ = search(300, preset=preset, restarts=False, dag=False)
+    tree = searcher.strategy.search.dag
+    assert len(set(merged.texts)) == len(merged)
+    assert len(set(tree.texts)) < len(tree)
+    assert max(len(merged.edges.parents(node)) for node in range(len(merged))) > 1
+    assert {len(tree.edges.parents(node)) for node in range(len(tree))} == {0, 1}
+    assert searcher.metrics()["edges"] == searcher.metrics()["nodes"] - 1
 
 
 def test_in_a_tree_a_reward_goes_up_one_path(search):
-    tree, _ = search(200, preset="paper", restarts=False, dag=False)
-    for node in tree.strategy.search.dag.nodes:
-        assert node.visits >= sum(child.visits for child, _ in node.children.values())
+    tree = search(200, preset="paper", restarts=False, dag=False)[0].strategy.search.dag
+    visits = tree.rewards.visits
+    for node in range(len(tree)):
+        assert visits[node] >= sum(visits[child] for child in tree.edges.children(node))
 
 
 def test_without_annealing_every_round_searches(search):

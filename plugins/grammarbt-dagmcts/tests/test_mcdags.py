@@ -1,7 +1,10 @@
+from itertools import pairwise
+
 import pytest
 
+from grammarbt.grammar import parse_tree
 from grammarbt.search import Evaluation, RootList
-from grammarbt_dagmcts.dag import ancestors, levels
+from grammarbt_dagmcts.dag import ROOT, Dag
 from grammarbt_dagmcts.mcdags import McdagsSearch
 from grammarbt_dagmcts.parameters import DagMctsParameters
 from grammarbt_dagmcts.rollout import RollOuts, least_steps
@@ -81,41 +84,50 @@ def test_now_and_then_the_best_node_of_each_level_is_joined(search):
     def lose(proposal):
         return Evaluation(proposal, (-1.0 - len(proposal.tree.children),))
 
-    settings = {"preset": "mcdags", "restarts": False, "answer": lose}
-    seldom, often = search(99, link_every=100, **settings)[0], search(99, link_every=3, **settings)[0]
+    settings = {"preset": "mcdags", "restarts": False, "annealing": False, "answer": lose}
+    seldom, often = search(300, link_every=400, **settings)[0], search(300, link_every=1, **settings)[0]
     assert often.metrics()["nodes"] > seldom.metrics()["nodes"]
 
 
-def test_levels_are_the_fewest_productions_from_the_root(search, grammar):
+def test_levels_are_the_fewest_productions_from_the_root(search):
     dag = search(200, preset="mcdags", restarts=False)[0].strategy.search.dag
-    found = levels(dag.root)
-    assert found[0] == [dag.root]
-    numbers = [{node.number for node in level} for level in found]
-    for level, (above, below) in enumerate(zip(found, numbers[1:], strict=False)):
-        children = {number for node in above for number in node.children}
-        assert below == children - set().union(*numbers[: level + 1])
+    found = dag.levels()
+    assert found[0] == [ROOT]
+    assert sorted(node for level in found for node in level) == list(range(len(dag)))
+    for number, (level, below) in enumerate(pairwise(found)):
+        children = {child for node in level for child in dag.edges.children(node)}
+        assert set(below) == children.difference(*found[: number + 1])
 
 
 def test_only_forms_without_a_reward_count_as_unvisited(mcdags, answer):
     searching = mcdags(restarts=False).search
+    dag = searching.dag
     for _ in range(200):
         (roll_out,) = searching.plan(1)
-        last = roll_out.path[-1]
-        assert last.visits == 0 or searching.grammar.is_word(last.form)
+        last = searching.last(roll_out)
+        assert dag.rewards.visits[last] == 0 or dag.words[last]
         searching.learn(roll_out, answer(roll_out.proposal))
-        assert searching.dag.root in ancestors([last])
+        assert ROOT in dag.ancestors([last])
 
 
 @pytest.mark.parametrize("longest", [0, 3, 40])
-def test_a_long_roll_out_is_finished_the_shortest_way(grammar, context, mcdags, longest):
-    root = mcdags().search.dag.root
-    roll_outs = RollOuts(grammar, context().rng, longest)
-    lengths = [len(roll_outs.below((root,), 0).proposal.derivation) for _ in range(200)]
-    shortest = min(
-        len(RollOuts(grammar, context(seed).rng, 0).below((root,), 0).proposal.derivation) for seed in (0, 1)
-    )
+def test_a_long_roll_out_is_finished_the_shortest_way(grammar, context, longest):
+    roll_outs = RollOuts(Dag(grammar), context().rng, longest)
+    lengths = [len(roll_outs.below((), 0).proposal.derivation) for _ in range(200)]
+    fewest = RollOuts(Dag(grammar), context(1).rng, 0)
+    shortest = min(len(fewest.below((), 0).proposal.derivation) for _ in range(5))
     assert min(lengths) >= shortest
     assert (max(lengths) == shortest) == (longest == 0)
+
+
+def test_a_roll_out_spells_the_tree_that_its_derivation_leads_to(mcdags, grammar, answer):
+    searching = mcdags(restarts=False).search
+    for _ in range(100):
+        (roll_out,) = searching.plan(1)
+        proposal = roll_out.proposal
+        assert grammar.tree(grammar.derive(proposal.derivation)) == proposal.tree
+        assert proposal.derivation == parse_tree(grammar, proposal.tree)
+        searching.learn(roll_out, answer(proposal))
 
 
 def test_least_steps_are_those_of_the_shortest_derivations(grammar):

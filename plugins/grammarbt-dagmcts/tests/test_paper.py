@@ -1,7 +1,7 @@
 import pytest
 
-from grammarbt.search import block_derivations, leftmost, position_of
-from grammarbt_dagmcts.dag import Dag, ancestors
+from grammarbt.search import block_derivations, leftmost
+from grammarbt_dagmcts.dag import ROOT, Dag
 from grammarbt_dagmcts.paper import PaperSearch
 from grammarbt_dagmcts.parameters import DagMctsParameters
 
@@ -12,37 +12,47 @@ def grown(search):
     return searcher.strategy.search
 
 
-def test_every_parent_in_the_dag_is_joined(grown, grammar):
-    known = grown.dag.by_form
-    for node in grown.dag.nodes:
-        expected = {known[form].number for form, _ in grammar.parents(node.form) if form in known}
-        assert {parent.number for parent in node.parents} == expected
+def test_a_node_is_joined_to_every_parent_that_was_there_before(grown, grammar):
+    dag = grown.dag
+    known = {dag.form(node): node for node in range(len(dag))}
+    assert len(known) == len(dag)
+    for form, node in known.items():
+        above = {known[parent] for parent, _ in grammar.parents(form) if parent in known}
+        assert {parent for parent in above if parent < node} <= set(dag.edges.parents(node)) <= above
 
 
-def test_every_edge_is_one_production(grown, grammar):
-    for node in grown.dag.nodes:
-        for child, production in node.children.values():
-            position = position_of(grammar, node.form, production, child.form)
-            assert grammar.apply(node.form, production, position) == child.form
+def test_every_edge_is_one_production_at_the_place_it_names(grown, grammar):
+    edges = grown.dag.edges
+    for edge in range(1, len(edges) + 1):
+        parent = grown.dag.form(edges.parent[edge])
+        after = grammar.apply(parent, edges.production[edge], grammar.positions(parent)[edges.place[edge]])
+        assert after == grown.dag.form(edges.child[edge])
+
+
+def test_edges_are_listed_from_both_their_ends(grown):
+    edges = grown.dag.edges
+    for edge in range(1, len(edges) + 1):
+        assert edge in edges.below(edges.parent[edge])
+        assert edge in edges.above(edges.child[edge])
+    assert sum(len(edges.children(node)) for node in range(len(grown.dag))) == len(edges)
 
 
 def test_some_nodes_have_several_parents(grown):
-    assert max(len(node.parents) for node in grown.dag.nodes) > 1
+    assert max(len(grown.dag.edges.parents(node)) for node in range(len(grown.dag))) > 1
 
 
 def test_each_ancestor_is_credited_once_per_roll_out(context, answer):
     strategy = PaperSearch(context(), DagMctsParameters(preset="paper", restart_every=0))
     batches = strategy.batches(lambda: 1)
     proposals = next(batches)
+    dag = strategy.search.dag
     for _ in range(80):
-        nodes = list(strategy.search.dag.nodes)
-        before = [(node.visits, list(node.parents)) for node in nodes]
+        before = [(dag.rewards.visits[node], dag.edges.parents(node)) for node in range(len(dag))]
         proposals = batches.send([answer(proposal) for proposal in proposals])
-        credited = {node.number for node, (visits, _) in zip(nodes, before, strict=True) if node.visits > visits}
-        assert all(node.visits <= visits + 1 for node, (visits, _) in zip(nodes, before, strict=True))
-        assert strategy.search.dag.root.number in credited
-        for node, (_, parents) in zip(nodes, before, strict=True):
-            assert node.number not in credited or credited >= {parent.number for parent in parents}
+        gained = [dag.rewards.visits[node] - visits for node, (visits, _) in enumerate(before)]
+        assert set(gained) <= {0, 1}
+        assert gained[ROOT] == 1
+        assert all(gained[parent] for node, (_, parents) in enumerate(before) if gained[node] for parent in parents)
 
 
 def descendant(grammar, steps):
@@ -54,19 +64,28 @@ def descendant(grammar, steps):
 
 def test_linked_forms_lie_within_k_inverse_productions(grammar):
     dag = Dag(grammar)
-    node = dag.add(descendant(grammar, 6))
+    node = dag.add(dag.spelling.text(descendant(grammar, 6)))
     dag.link_ancestors(node, 6, 10_000)
-    assert dag.root in ancestors([node])
-    for other in dag.nodes:
-        assert other is node or node.form in _below(grammar, other.form, 6)
+    assert ROOT in dag.ancestors([node])
+    for other in range(len(dag)):
+        assert other == node or dag.form(node) in _below(grammar, dag.form(other), 6)
+
+
+def test_every_way_from_a_linked_ancestor_is_joined(grammar):
+    dag = Dag(grammar)
+    node = dag.add(dag.spelling.text(descendant(grammar, 6)))
+    dag.link_ancestors(node, 6, 10_000)
+    known = {dag.form(other): other for other in range(len(dag))}
+    for form, other in known.items():
+        assert set(dag.edges.parents(other)) == {known[above] for above, _ in grammar.parents(form) if above in known}
 
 
 def test_ancestors_further_than_k_stay_unlinked(grammar):
     dag = Dag(grammar)
-    node = dag.add(descendant(grammar, 6))
+    node = dag.add(dag.spelling.text(descendant(grammar, 6)))
     dag.link_ancestors(node, 3, 10_000)
-    assert len(dag.nodes) == 2
-    assert dag.root not in ancestors([node])
+    assert len(dag) == 2
+    assert ROOT not in dag.ancestors([node])
 
 
 def _below(grammar, form, steps):

@@ -6,6 +6,7 @@ from grammarbt.bt import behave_alike, children, leaves, parse
 from grammarbt.errors import SearcherError
 from grammarbt.grammar import Source, bind, load_grammar
 from grammarbt.search import Evaluation
+from grammarbt_dagmcts.dag import ROOT
 from grammarbt_dagmcts.parameters import DagMctsParameters
 from grammarbt_dagmcts.search import DagMcts
 
@@ -109,10 +110,11 @@ def test_the_published_methods_begin_from_the_start_tree(context, goal, grammar,
     (first,) = searcher.ask(1)
     assert first.tree == goal
     searcher.tell([Evaluation(first, (5.0,))])
-    (word,) = (node for node in searcher.strategy.search.dag.nodes if grammar.is_word(node.form))
-    assert grammar.tree(word.form) == goal
-    assert word.closed
-    assert word.visits == searcher.strategy.search.dag.root.visits == 1
+    dag = searcher.strategy.search.dag
+    (word,) = (node for node in range(len(dag)) if dag.words[node])
+    assert grammar.tree(dag.form(word)) == goal
+    assert dag.closed[word]
+    assert dag.rewards.visits[word] == dag.rewards.visits[ROOT] == 1
 
 
 @pytest.mark.parametrize("preset", PUBLISHED)

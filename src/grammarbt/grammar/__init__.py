@@ -11,7 +11,9 @@ from grammarbt.grammar.leftmost import Word
 from grammarbt.grammar.model import Grammar, load_grammar, read_grammar
 from grammarbt.grammar.parse import NotInLanguageError, parse_tree
 from grammarbt.grammar.paths import InfiniteLanguageError, TooLargeError
+from grammarbt.grammar.pieces import Piece, Pieces, is_independent
 from grammarbt.grammar.shipped import shipped_grammars
+from grammarbt.grammar.spelling import Spelling
 from grammarbt.grammar.table import Derivation, Production
 from grammarbt.grammar.uniform import Likely, Uniform, sampler
 
@@ -27,15 +29,19 @@ __all__ = [
     "Language",
     "Likely",
     "NotInLanguageError",
+    "Piece",
+    "Pieces",
     "Production",
     "SententialForm",
     "Source",
     "Span",
+    "Spelling",
     "TooLargeError",
     "Uniform",
     "Word",
     "bind",
     "bundled",
+    "is_independent",
     "load_grammar",
     "parse_tree",
     "read_grammar",

@@ -44,13 +44,13 @@ class Forms:
         used = list(form.used)
         scopes, opened = _scopes_at(form.symbols, position)
         for scope, marker in scopes:
-            after = self._spend(self.grammar.opens_of(self.grammar.opened_by(marker)), used[scope], production)
+            after = self.spend(self.grammar.opens_of(self.grammar.opened_by(marker)), used[scope], production)
             if after is None:
                 return None
             used[scope] = after
         own, rhs = self.grammar.opens_of(production.lhs), production.rhs
         if own:
-            fresh = self._spend(own, (0,) * len(own), production)
+            fresh = self.spend(own, (0,) * len(own), production)
             if fresh is None:
                 return None
             used.insert(opened, fresh)
@@ -58,9 +58,10 @@ class Forms:
         symbols = (*form.symbols[:position], *rhs, *form.symbols[position + 1 :])
         return SententialForm(symbols, tuple(used))
 
-    def _spend(
+    def spend(
         self, constraints: tuple[int, ...], used: tuple[int, ...], production: Production
     ) -> tuple[int, ...] | None:
+        """What a scope has used after the production, per constraint; None if that breaks one."""
         after = []
         for constraint, so_far in zip(constraints, used, strict=True):
             more, limit = production.use[constraint], self.grammar.costs.constraints[constraint]

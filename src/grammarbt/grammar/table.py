@@ -83,6 +83,11 @@ class ProductionTable:
         return {lhs: tuple(own) for lhs, own in grouped(self.productions, lambda each: each.lhs).items()}
 
     @cached_property
+    def parts(self) -> tuple[tuple[int, ...], ...]:
+        """Per production, the nonterminals on its right, left to right."""
+        return tuple(tuple(filter(self.is_nonterminal, production.rhs)) for production in self.productions)
+
+    @cached_property
     def start_symbol(self) -> int:
         """The number of the nonterminal that every tree begins with."""
         return len(self.terminals)

@@ -7,7 +7,7 @@ from grammarbt.search.batches import Batches, BatchSearcher, Scenarios, Strategy
 from grammarbt.search.behaviours import behaviour_of
 from grammarbt.search.blocks import Behaviour, BlockDag, BlockNode, Piece, Stream, piece_of
 from grammarbt.search.climb import Climb, ClimbParameters
-from grammarbt.search.derivations import Step, block_derivations, leftmost, position_of
+from grammarbt.search.derivations import Step, block_derivations, complete, leftmost, position_of, rearranged
 from grammarbt.search.edits import Edits, Site
 from grammarbt.search.evolution import Evolution, EvolutionParameters
 from grammarbt.search.fame import HallOfFame
@@ -86,6 +86,7 @@ __all__ = [
     "block_dags",
     "block_derivations",
     "closes",
+    "complete",
     "differences",
     "judge",
     "leftmost",
@@ -95,6 +96,7 @@ __all__ = [
     "piece_of",
     "position_of",
     "reached_positions",
+    "rearranged",
     "search_any_grammar",
     "smallest_first",
     "trimmed",

@@ -24,20 +24,20 @@ class _Open:
 
 def leftmost(grammar: BoundGrammar, steps: Iterable[Step]) -> Template:
     """The leftmost order of a derivation from one nonterminal, whose steps may come in any order."""
+    turns = ((grammar.positions(form).index(position), production) for form, position, production in steps)
+    return rearranged(grammar, turns)
+
+
+def rearranged(grammar: BoundGrammar, turns: Iterable[tuple[int, int]]) -> Template:
+    """The same of steps that say which of the nonterminals is rewritten, from the left, and by what production."""
     root = _Open()
     frontier = [root]
-    for form, position, production in steps:
-        at = grammar.positions(form).index(position)
+    for at, production in turns:
         rewritten = frontier[at]
         rewritten.production = production
-        rewritten.parts = [_Open() for _ in nonterminals(grammar, production)]
+        rewritten.parts = [_Open() for _ in grammar.parts[production]]
         frontier[at : at + 1] = rewritten.parts
     return _preorder(root)
-
-
-def nonterminals(grammar: BoundGrammar, production: int) -> list[int]:
-    """The nonterminals on the right of a production, left to right."""
-    return [symbol for symbol in grammar.productions[production].rhs if grammar.is_nonterminal(symbol)]
 
 
 def complete(template: Template, parts: Sequence[Derivation]) -> Derivation:
@@ -84,9 +84,9 @@ def _leads_to(
 
 
 def _end(grammar: BoundGrammar, derivation: Derivation, at: int) -> int:
-    pending = 1
+    parts, pending = grammar.parts, 1
     while pending:
-        pending += len(nonterminals(grammar, derivation[at])) - 1
+        pending += len(parts[derivation[at]]) - 1
         at += 1
     return at
 

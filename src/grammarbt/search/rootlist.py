@@ -10,7 +10,7 @@ from attrs import frozen
 from grammarbt.bt import BehaviorTree, Fallback
 from grammarbt.bt import Sequence as SequenceNode
 from grammarbt.errors import GrammarError
-from grammarbt.grammar import BoundGrammar, Derivation
+from grammarbt.grammar import BoundGrammar, Derivation, is_independent
 from grammarbt.search.blockrows import BlockRows
 from grammarbt.search.blocks import Piece, piece_of
 from grammarbt.search.derivations import Template, block_derivations, complete
@@ -35,7 +35,7 @@ class RootList:
         self.grammar = grammar
         self._rows = BlockRows(grammar)
         self._kinds: dict[Template, type[Fallback | SequenceNode]] = {}
-        self._independent = all(_is_independent(grammar, block) for block in grammar.blocks)
+        self._independent = all(is_independent(grammar, block) for block in grammar.blocks)
 
     def fits(self, rng: np.random.Generator) -> bool:
         """Whether random words of the language are such lists."""
@@ -95,17 +95,3 @@ class RootList:
         except GrammarError:  # a constraint on the whole tree, such as its size
             return False
         return True
-
-
-def _is_independent(grammar: BoundGrammar, block: int) -> bool:
-    """Whether what stands inside the block has no say in what may stand around it."""
-    around = grammar.encloses_of(block)
-    pending, met = [block], {block}
-    while pending:
-        for production in grammar.by_lhs.get(pending.pop(), ()):
-            if any(production.use[constraint] for constraint in around):
-                return False
-            new = [symbol for symbol in production.rhs if grammar.is_nonterminal(symbol) and symbol not in met]
-            met.update(new)
-            pending.extend(new)
-    return not around & grammar.depth_constraints

@@ -18,7 +18,7 @@ from grammarbt.bt import BehaviorTree
 from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
 from grammarbt.grammar.table import CLOSE
 from grammarbt.grammar.vectors import NOTHING
-from grammarbt.search.derivations import Template, nonterminals
+from grammarbt.search.derivations import Template
 
 MAX_STATES = 200_000
 ENDLESS = 1_000_000
@@ -121,7 +121,7 @@ class States:
 
     def __init__(self, grammar: BoundGrammar) -> None:
         self.grammar = grammar
-        self.parts = tuple(tuple(nonterminals(grammar, number)) for number in range(len(grammar.productions)))
+        self.parts = grammar.parts
         self._known: dict[SententialForm, State] = {}
         self._backwards = tuple(production.rhs[::-1] for production in grammar.productions)
         needs = {symbol: grammar.forms.needs.of(symbol) for symbol in grammar.by_lhs}

@@ -1,154 +1,191 @@
-"""The derivation DAG: sentential forms as nodes, single productions as edges."""
+"""The derivation DAG: sentential forms as nodes, single productions as edges.
+
+A node is a number, and everything about nodes stands in columns: a search keeps millions of them.
+"""
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Iterable
 
-from attrs import define, field
+from grammarbt.grammar import BoundGrammar, Pieces, SententialForm, Spelling
+from grammarbt_dagmcts.edges import Edges
+from grammarbt_dagmcts.rewards import Rewards
 
-from grammarbt.grammar import BoundGrammar, SententialForm
-from grammarbt.search import Arm
+ROOT = 0
+"""The node of the start symbol."""
 
-
-@define(eq=False)
-class Node(Arm):
-    """A sentential form; its rewards are those of all roll-outs through it, each once.
-
-    Attributes:
-        form: what it stands for.
-        number: its place in the order of creation.
-        parents: nodes that become it by one production.
-        children: nodes by number, with the production that leads there.
-        untried: (position, production) pairs that no selection took yet; None before the first selection.
-        selections: how often selection passed through it, apart from rewards.
-        closed: every word below it was proposed.
-    """
-
-    form: SententialForm
-    number: int
-    parents: list[Node] = field(factory=list, init=False, repr=False)
-    children: dict[int, tuple[Node, int]] = field(factory=dict, init=False, repr=False)
-    untried: list[tuple[int, int]] | None = field(default=None, init=False, repr=False)
-    selections: int = field(default=0, init=False)
-    closed: bool = field(default=False, init=False)
+_NONE_LEFT = array("I")
 
 
 class Dag:
-    """One node per sentential form; every parent in the DAG is joined to its children, whichever came first."""
+    """One node per sentential form; a new node is joined to all its parents in the DAG.
+
+    Attributes:
+        spelling: how forms are spelled.
+        pieces: what is legal in them.
+        texts: per node, its form.
+        edges: between the nodes.
+        rewards: per node, those of all roll-outs through it, each once.
+        selections: per node, how often selection passed through it, apart from rewards.
+        words: per node, whether nothing is left to derive.
+        closed: per node, whether every word below it was proposed.
+    """
 
     def __init__(self, grammar: BoundGrammar) -> None:
         self.grammar = grammar
-        self.nodes: list[Node] = []
-        self.by_form: dict[SententialForm, Node] = {}
-        self.edges = 0
-        self._absent: dict[SententialForm, list[tuple[Node, int]]] = {}
-        self.root = self.add(grammar.start())
+        self.spelling = Spelling(grammar)
+        self.pieces = Pieces(self.spelling)
+        self.texts: list[str] = []
+        self.edges = Edges()
+        self.rewards = Rewards()
+        self.selections = array("I")
+        self.words = bytearray()
+        self.closed = bytearray()
+        self._untried: list[array[int] | None] = []
+        self._by_text: dict[str, int] = {}
+        self.add(self.spelling.text(grammar.start()))
 
-    def child(self, parent: Node, production: int, position: int | None = None) -> Node:
-        """The node after a production at a position (default: leftmost), which may have been there before."""
-        form = self.grammar.apply(parent.form, production, position)
-        return self.by_form.get(form) or self.add(form)
+    def __len__(self) -> int:
+        """How many nodes there are."""
+        return len(self.texts)
 
-    def add(self, form: SententialForm) -> Node:
-        """A new node, joined to all its parents and children in the DAG."""
-        node = self.by_form[form] = self._new(form)
-        for child, production in self._absent.pop(form, ()):
-            self._join(node, child, production)
-        for above, production in self.grammar.parents(form):
-            parent = self.by_form.get(above)
-            if parent is None:
-                self._absent.setdefault(above, []).append((node, production))
-            else:
-                self._join(parent, node, production)
+    def form(self, node: int) -> SententialForm:
+        """What a node stands for."""
+        return self.spelling.form(self.texts[node])
+
+    def find(self, text: str) -> int | None:
+        """The node of a form, if there is one."""
+        return self._by_text.get(text)
+
+    def after(self, parent: int, place: int, production: int) -> int:
+        """The edge by a legal production; the node below may have been there before."""
+        text = self._applied(parent, place, production)
+        known = self.find(text)
+        return self.edges.join(parent, self.add(text) if known is None else known, production, place)
+
+    def _applied(self, parent: int, place: int, production: int) -> str:
+        text = self.texts[parent]
+        return self.spelling.apply(text, production, self.spelling.positions(text)[place])
+
+    def add(self, text: str) -> int:
+        """A new node, joined to all its parents in the DAG."""
+        node = self._by_text[text] = self._new(text)
+        for above, production, at in self.spelling.parents(text):
+            parent = self.find(above)
+            if parent is not None:
+                self._join(parent, node, production, at)
         return node
 
-    def _new(self, form: SententialForm) -> Node:
-        node = Node(form, len(self.nodes))
-        self.nodes.append(node)
-        return node
+    def _new(self, text: str) -> int:
+        self.texts.append(text)
+        self.edges.add_node()
+        self.rewards.add_node()
+        self.selections.append(0)
+        self.words.append(not self.spelling.nonterminals(text))
+        self.closed.append(False)
+        self._untried.append(None)
+        return len(self.texts) - 1
 
-    def _join(self, parent: Node, child: Node, production: int) -> None:
-        if child.number not in parent.children:
-            parent.children[child.number] = (child, production)
-            child.parents.append(parent)
-            self.edges += 1
+    def _join(self, parent: int, child: int, production: int, at: int) -> None:
+        self.edges.join(parent, child, production, len(self.spelling.nonterminals(self.texts[parent][:at])))
 
-    def link_ancestors(self, node: Node, k: int, most: int) -> None:
-        """Join the node to its ancestors in the DAG within k inverse productions, by adding the forms between.
+    # Productions that no selection took yet, as place · productions + production
 
-        At most `most` forms are looked at.
-        """
-        below, reached = self._search_above(node, k, most)
-        pending = [form for above in reached for form in below[above]]
-        while pending:
-            form = pending.pop()
-            if form not in self.by_form:
-                self.add(form)
-                pending.extend(below[form])
+    def untried(self, node: int) -> array[int]:
+        """Those of a node; all that are legal before the first selection."""
+        known = self._untried[node]
+        if known is None:
+            many = len(self.grammar.productions)
+            options = self.pieces.options(self.texts[node])
+            known = array("I", [place * many + production for place, production in options]) or _NONE_LEFT
+            self._untried[node] = known
+        return known
 
-    def _search_above(
-        self, node: Node, k: int, most: int
-    ) -> tuple[dict[SententialForm, list[SententialForm]], list[SententialForm]]:
-        """The forms above the node, each with those it leads to, and which of them the DAG has."""
-        below: dict[SententialForm, list[SententialForm]] = {node.form: []}
-        reached: list[SententialForm] = []
-        layer = [node.form]
-        for _ in range(k):
-            above: list[SententialForm] = []
-            for form in layer:
-                for parent, _ in self.grammar.parents(form):
-                    if parent in below:
-                        below[parent].append(form)
-                    elif len(below) <= most:
-                        below[parent] = [form]
-                        (reached if parent in self.by_form else above).append(parent)
-            layer = above
-        return below, reached
+    def take_untried(self, node: int, at: int) -> tuple[int, int]:
+        """Take the one at an index: the place of a nonterminal, and a production."""
+        untried = self.untried(node)
+        taken, untried[at] = untried[at], untried[-1]
+        untried.pop()
+        if not untried:
+            self._untried[node] = _NONE_LEFT
+        return divmod(taken, len(self.grammar.productions))
 
-    def close(self, node: Node) -> None:
+    def close(self, node: int) -> None:
         """Mark a node as having nothing left to propose, and every ancestor of which this is then true."""
         pending = [node]
         while pending:
             done = pending.pop()
-            done.closed = True
-            pending.extend(parent for parent in done.parents if not parent.closed and _exhausted(parent))
+            self.closed[done] = True
+            pending += [
+                above for above in self.edges.parents(done) if not self.closed[above] and self._exhausted(above)
+            ]
+
+    def _exhausted(self, node: int) -> bool:
+        return self._untried[node] is _NONE_LEFT and all(self.closed[child] for child in self.edges.children(node))
+
+    # Ancestors
+
+    def link_ancestors(self, node: int, k: int, most: int) -> None:
+        """Join the node to its ancestors in the DAG within k inverse productions, by adding the forms between.
+
+        At most `most` forms are looked at.
+        """
+        below, pending = self._search_above(node, k, most)
+        while pending:
+            text = pending.pop()
+            known = self.find(text)
+            parent = self.add(text) if known is None else known
+            for child, production, at in below[text]:
+                number = self.find(child)
+                if number is None:
+                    pending.append(child)
+                else:
+                    self._join(parent, number, production, at)
+
+    def _search_above(self, node: int, k: int, most: int) -> tuple[dict[str, list[tuple[str, int, int]]], list[str]]:
+        """The forms above the node, each with what they lead to and how, and which of them the DAG has."""
+        layer = [self.texts[node]]
+        below: dict[str, list[tuple[str, int, int]]] = {layer[0]: []}
+        reached: list[str] = []
+        for _ in range(k):
+            above: list[str] = []
+            for text in layer:
+                for parent, production, at in self.spelling.parents(text):
+                    if parent in below:
+                        below[parent].append((text, production, at))
+                    elif len(below) <= most:
+                        below[parent] = [(text, production, at)]
+                        (above if self.find(parent) is None else reached).append(parent)
+            layer = above
+        return below, reached
+
+    def ancestors(self, nodes: Iterable[int]) -> list[int]:
+        """The nodes and all their ancestors, each once, nearest first."""
+        order = list(nodes)
+        found = set(order)
+        for node in order:  # grows while it is read
+            for edge in self.edges.above(node):
+                parent = self.edges.parent[edge]
+                if parent not in found:
+                    found.add(parent)
+                    order.append(parent)
+        return order
+
+    def levels(self) -> list[list[int]]:
+        """The nodes that the root leads to, by the fewest productions it takes."""
+        found, layer, met = [], [ROOT], {ROOT}
+        while layer:
+            found.append(layer)
+            below = dict.fromkeys(child for node in layer for child in self.edges.children(node))
+            layer = [child for child in below if child not in met]
+            met.update(layer)
+        return found
 
 
 class Tree(Dag):
     """A search tree in the place of the DAG: every way to a form has a node of its own."""
 
-    def child(self, parent: Node, production: int, position: int | None = None) -> Node:
-        """A new node below the parent."""
-        node = self._new(self.grammar.apply(parent.form, production, position))
-        self._join(parent, node, production)
-        return node
-
-
-def ancestors(nodes: Iterable[Node]) -> list[Node]:
-    """The nodes and all their ancestors, each once, nearest first."""
-    found = {node.number: node for node in nodes}
-    order = list(found.values())
-    for node in order:  # grows while it is read
-        for parent in node.parents:
-            if parent.number not in found:
-                found[parent.number] = parent
-                order.append(parent)
-    return order
-
-
-def levels(root: Node) -> list[list[Node]]:
-    """The nodes that the root leads to, by the fewest productions it takes."""
-    met = {root.number}
-    found, layer = [], [root]
-    while layer:
-        found.append(layer)
-        below: list[Node] = []
-        for node in layer:
-            below.extend(child for child, _ in node.children.values() if child.number not in met)
-            met.update(node.children)
-        layer = list(dict.fromkeys(below))
-    return found
-
-
-def _exhausted(node: Node) -> bool:
-    return node.untried == [] and all(child.closed for child, _ in node.children.values())
+    def after(self, parent: int, place: int, production: int) -> int:
+        """The edge to a new node below the parent."""
+        return self.edges.join(parent, self._new(self._applied(parent, place, production)), production, place)

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from grammarbt.bt import BehaviorTree
 from grammarbt.grammar import BoundGrammar, parse_tree
-from grammarbt.search import Batches, Evaluation, Proposal, Scenarios, SearchContext, make_bandit
-from grammarbt_dagmcts.dag import Dag, Node, Tree, ancestors
+from grammarbt.search import Batches, Evaluation, Scenarios, SearchContext, make_bandit
+from grammarbt_dagmcts.dag import ROOT, Dag, Tree
 from grammarbt_dagmcts.experience import Experience
 from grammarbt_dagmcts.parameters import DagMctsParameters
 from grammarbt_dagmcts.rollout import RollOut, RollOuts
@@ -50,7 +50,7 @@ class DagSearch:
         self.grammar = grammar
         self.dag = Dag(grammar) if self.parameters.dag else Tree(grammar)
         self.bandit = make_bandit(self.parameters.bandit, 1.0 if self.parameters.c is None else self.parameters.c)
-        self._roll_outs = RollOuts(grammar, self.rng, self.longest)
+        self._roll_outs = RollOuts(self.dag, self.rng, self.longest)
 
     def restart(self) -> None:
         """Begin a new DAG, with the most promising sub-trees as productions."""
@@ -64,73 +64,88 @@ class DagSearch:
     def plan(self, n: int) -> list[RollOut]:
         """At most n roll-outs, each on a scenario of its own; none when every word was proposed."""
         paths = (self._select() for _ in range(n))
-        return [self._roll_outs.below(path, self.scenarios.fresh(1)) for path in paths if path]
+        return [self._roll_outs.below(path, self.scenarios.fresh(1)) for path in paths if path is not None]
 
-    def _select(self) -> tuple[Node, ...]:
-        """From the root to a new node, or to a word; empty when every word was proposed."""
-        while not self.dag.root.closed:
+    def _select(self) -> tuple[int, ...] | None:
+        """The edges from the root to a new node, or to a word; None when every word was proposed."""
+        while not self.dag.closed[ROOT]:
             path = self._descend()
-            if not path:
+            if path is None:
                 continue
-            for node in path:
-                node.selections += 1
-            if self.grammar.is_word(path[-1].form):
-                self.dag.close(path[-1])
+            nodes = self._nodes(path)
+            for node in nodes:
+                self.dag.selections[node] += 1
+            if self.dag.words[nodes[-1]]:
+                self.dag.close(nodes[-1])
             return path
-        return ()
+        return None
 
-    def _descend(self) -> tuple[Node, ...]:
-        """One way down; empty if it ended at a node below which nothing is left, which is then closed."""
-        path = [self.dag.root]
-        while not self.grammar.is_word(path[-1].form):
-            known = len(self.dag.nodes)
-            child = self._expand(path[-1]) or self._best_child(path[-1])
-            if child is None:
-                self.dag.close(path[-1])
-                return ()
-            path.append(child)
-            if len(self.dag.nodes) > known:
+    def _nodes(self, path: tuple[int, ...]) -> list[int]:
+        return [ROOT, *(self.dag.edges.child[edge] for edge in path)]
+
+    def last(self, roll_out: RollOut) -> int:
+        """The node that a roll-out begins at."""
+        return self._nodes(roll_out.path)[-1]
+
+    def _descend(self) -> tuple[int, ...] | None:
+        """One way down; None if it ended at a node below which nothing is left, which is then closed."""
+        path: list[int] = []
+        node = ROOT
+        while not self.dag.words[node]:
+            known = len(self.dag)
+            edge = self._expand(node) or self._best_edge(node)
+            if not edge:
+                self.dag.close(node)
+                return None
+            path.append(edge)
+            node = self.dag.edges.child[edge]
+            if len(self.dag) > known:
                 break
         return tuple(path)
 
-    def _expand(self, node: Node) -> Node | None:
-        """An open child by a production that was not tried, drawn at random; new unless another path led there."""
-        if node.untried is None:
-            positions = self.grammar.positions(node.form)
-            node.untried = [(at, production) for at in positions for production in self.grammar.legal(node.form, at)]
-        while node.untried:
-            drawn = int(self.rng.integers(len(node.untried)))
-            node.untried[drawn], node.untried[-1] = node.untried[-1], node.untried[drawn]
-            position, production = node.untried.pop()
-            child = self._child(node, production, position)
-            if not child.closed and not (self.only_unvisited and child.visits):
-                return child
-        return None
+    def _expand(self, node: int) -> int:
+        """The edge to an open child by a production that was not tried, drawn at random; 0 if there is none.
 
-    def _child(self, parent: Node, production: int, position: int | None = None) -> Node:
-        known = len(self.dag.nodes)
-        child = self.dag.child(parent, production, position)
-        if self.link_new and len(self.dag.nodes) > known:
-            self.link(child)
-        return child
+        The child is new unless another path led there.
+        """
+        while untried := self.dag.untried(node):
+            place, production = self.dag.take_untried(node, int(self.rng.integers(len(untried))))
+            edge = self._after(node, place, production)
+            child = self.dag.edges.child[edge]
+            if not self.dag.closed[child] and not (self.only_unvisited and self.dag.rewards.visits[child]):
+                return edge
+        return 0
 
-    def link(self, node: Node) -> None:
+    def _after(self, parent: int, place: int, production: int) -> int:
+        known = len(self.dag)
+        edge = self.dag.after(parent, place, production)
+        if self.link_new and len(self.dag) > known:
+            self.link(self.dag.edges.child[edge])
+        return edge
+
+    def link(self, node: int) -> None:
         """Join a node to ancestors that no path led from, if the parameters want that."""
         if self.links:
             self.dag.link_ancestors(node, self.parameters.k, self.parameters.most_ancestors)
 
-    def _best_child(self, node: Node) -> Node | None:
-        """The child with the highest index; one without a reward comes first, ties are broken by a random number."""
-        best, highest = None, float("-inf")
-        for child, _ in node.children.values():
-            if child.closed:
+    def _best_edge(self, node: int) -> int:
+        """The edge to the open child with the highest index; 0 if none is open.
+
+        One without a reward comes first, ties are broken by a random number.
+        """
+        best, highest = 0, float("-inf")
+        children, closed, visits = self.dag.edges.child, self.dag.closed, self.dag.rewards.visits
+        selections, trials = self.dag.selections, self.dag.selections[node]
+        for edge in self.dag.edges.below(node):
+            child = children[edge]
+            if closed[child]:
                 continue
-            noise = float(self.rng.random())
             index = float("inf")
-            if child.visits:
-                index = self.bandit.index(child, child.selections + noise + 1e-9, node.selections)
-            if best is None or index > highest:
-                best, highest = child, index
+            if visits[child]:
+                pulls = selections[child] + self.rng.random() + 1e-9
+                index = self.bandit.index(self.dag.rewards.arm(child), pulls, trials)
+            if not best or index > highest:
+                best, highest = edge, index
         return best
 
     # Backup
@@ -139,27 +154,26 @@ class DagSearch:
         """Give the reward to each ancestor once, whatever the number of paths; gives the reward."""
         reward = self.experience.learn(evaluation)
         self.bandit.observe(reward)
-        for node in ancestors(roll_out.path):
-            self.bandit.credit(node, reward)
+        self.dag.rewards.credit(self.dag.ancestors(reversed(self._nodes(roll_out.path))), self.bandit, reward)
         return reward
 
     def begin_from(self, tree: BehaviorTree) -> Batches[None]:
         """Simulate a tree first; the forms of its derivation become nodes."""
-        derivation = parse_tree(self.grammar, tree)
-        path = [self.dag.root]
-        for production in derivation:
-            path.append(self._child(path[-1], production))
-        self.dag.close(path[-1])
-        start = self.scenarios.fresh(1)
-        proposal = Proposal(self.grammar.tree(path[-1].form), derivation, start, start + 1)
-        evaluations = yield [proposal]
-        self.learn(RollOut(tuple(path), proposal), evaluations[0])
+        path: list[int] = []
+        node = ROOT
+        for production in parse_tree(self.grammar, tree):
+            path.append(self._after(node, 0, production))
+            node = self.dag.edges.child[path[-1]]
+        self.dag.close(node)
+        roll_out = self._roll_outs.below(tuple(path), self.scenarios.fresh(1))
+        evaluations = yield [roll_out.proposal]
+        self.learn(roll_out, evaluations[0])
 
     def metrics(self) -> Mapping[str, float]:
         """Size of the DAG and of the grammar."""
         return {
-            "nodes": len(self.dag.nodes),
-            "edges": self.dag.edges,
+            "nodes": len(self.dag),
+            "edges": len(self.dag.edges),
             "restarts": self.restarts,
             "macros": len(self.grammar.productions) - len(self.experience.grammar.productions),
         }

@@ -10,7 +10,6 @@ from collections.abc import Mapping, Sequence
 
 from grammarbt.bt import BehaviorTree
 from grammarbt.search import Batches, RootList, SearchContext, Width
-from grammarbt_dagmcts.dag import levels
 from grammarbt_dagmcts.dagsearch import DagSearch
 from grammarbt_dagmcts.listannealing import ListAnnealing
 from grammarbt_dagmcts.parameters import DagMctsParameters
@@ -74,7 +73,7 @@ class McdagsSearch:
             evaluations = yield [roll_out.proposal for roll_out in planned]
             for roll_out, evaluation in zip(planned, evaluations, strict=True):
                 if self.search.learn(roll_out, evaluation) > 0.0:
-                    self.search.link(roll_out.path[-1])
+                    self.search.link(self.search.last(roll_out))
                 self._searched += 1
                 if self._searched % self.link_every == 0:
                     self._link_levels()
@@ -82,10 +81,11 @@ class McdagsSearch:
 
     def _link_levels(self) -> None:
         """Join the best node of each level to its ancestors."""
-        for level in levels(self.search.dag.root):
-            visited = [node for node in level if node.visits]
+        rewards = self.search.dag.rewards
+        for level in self.search.dag.levels():
+            visited = [node for node in level if rewards.visits[node]]
             if visited:
-                self.search.link(max(visited, key=lambda node: node.mean))
+                self.search.link(max(visited, key=rewards.mean))
 
     def candidates(self, n: int) -> Sequence[BehaviorTree]:
         """The trees with the best returns."""

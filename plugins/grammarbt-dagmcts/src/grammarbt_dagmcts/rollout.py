@@ -2,74 +2,148 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from bisect import bisect_right
+from itertools import accumulate
 
 import numpy as np
-from attrs import frozen
+from attrs import define, field, frozen
 
-from grammarbt.grammar import BoundGrammar, SententialForm
-from grammarbt.search import Proposal, Step, leftmost, pick, position_of
-from grammarbt_dagmcts.dag import Node
+from grammarbt.grammar import BoundGrammar, Derivation, Pieces
+from grammarbt.search import Proposal, States, complete, pick, rearranged
+from grammarbt_dagmcts.dag import ROOT, Dag
+
+MAX_FORKS = 100_000
+"""Pieces of forms for which it is kept what a roll-out may do next."""
 
 
 @frozen(eq=False)
 class RollOut:
-    """A selected path, from the root to a node, and a random word below that node."""
+    """The edges from the root to a node, and a random word below that node."""
 
-    path: tuple[Node, ...]
+    path: tuple[int, ...]
     proposal: Proposal
+
+
+@define(eq=False)
+class Fork:
+    """What may be done at the first nonterminal of a piece.
+
+    Attributes:
+        text: the piece, spelled.
+        productions: the legal ones.
+        bounds: running sums of their weights.
+        shortest: those of them after which the fewest are left to do.
+        after: what is left of the piece after each production, once taken; no text if nothing is.
+    """
+
+    text: str
+    productions: tuple[int, ...]
+    bounds: list[float]
+    shortest: list[int]
+    after: dict[int, Fork] = field(factory=dict)
+
+    def draw(self, rng: np.random.Generator) -> int:
+        """A production by weight."""
+        if len(self.productions) == 1:
+            return self.productions[0]
+        return self.productions[bisect_right(self.bounds, rng.random() * self.bounds[-1])]
+
+
+@define(eq=False)
+class Walk:
+    """A piece that is being derived, from left to right."""
+
+    fork: Fork
+
+
+class Forks:
+    """The forks of a grammar, made as they are met."""
+
+    def __init__(self, grammar: BoundGrammar, pieces: Pieces) -> None:
+        self.grammar = grammar
+        self.pieces = pieces
+        self._least = least_steps(grammar)
+        self._known: dict[str, Fork] = {}
+
+    def at(self, text: str) -> Fork:
+        """The fork of a piece."""
+        known = self._known.get(text)
+        if known is None:
+            if len(self._known) >= MAX_FORKS:
+                self._known.clear()
+            known = self._known[text] = self._made(text)
+        return known
+
+    def _made(self, text: str) -> Fork:
+        legal = self.pieces.legal(text, self.pieces.spelling.positions(text)[0]) if text else ()
+        weights = (self.grammar.productions[production].weight for production in legal)
+        least = min((self._least[production] for production in legal), default=0.0)
+        shortest = [production for production in legal if self._least[production] == least]
+        return Fork(text, legal, list(accumulate(weights)), shortest)
+
+    def step(self, fork: Fork, production: int) -> Fork:
+        """What is left of a piece; independent nonterminals are pieces of their own."""
+        spelling = self.pieces.spelling
+        after = spelling.apply(fork.text, production, spelling.positions(fork.text)[0])
+        own = (piece.text for piece in self.pieces.split(after) if piece.text not in self.pieces.independent)
+        left = fork.after[production] = self.at(next(own, ""))
+        return left
 
 
 class RollOuts:
     """Finishes trees by random productions, and the shortest way when they take too many.
 
     Args:
-        grammar: of the nodes.
+        dag: where roll-outs begin.
         rng: randomness.
         longest: random productions of a roll-out.
     """
 
-    def __init__(self, grammar: BoundGrammar, rng: np.random.Generator, longest: int) -> None:
-        self.grammar = grammar
+    def __init__(self, dag: Dag, rng: np.random.Generator, longest: int) -> None:
+        self.dag = dag
         self.rng = rng
         self.longest = longest
-        self._least = least_steps(grammar)
+        self._states = States(dag.grammar)
+        self._forks = Forks(dag.grammar, dag.pieces)
+        spelled = dag.spelling.text
+        names = {symbol: spelled(dag.grammar.start(symbol)) for symbol in dag.grammar.by_lhs}
+        self._parts = tuple("".join(names[part] for part in parts[::-1]) for parts in dag.grammar.parts)
 
-    def below(self, path: tuple[Node, ...], scenario: int) -> RollOut:
+    def below(self, path: tuple[int, ...], scenario: int) -> RollOut:
         """A roll-out from the path's last node, to be simulated on one scenario."""
-        steps = self._steps(path)
-        form = path[-1].form
-        last = len(steps) + self.longest
-        while not self.grammar.is_word(form):
-            production = self._random(form) if len(steps) < last else self._shortest(form)
-            steps.append((form, self.grammar.positions(form)[0], production))
-            form = self.grammar.apply(form, production)
-        derivation = tuple(production for production in leftmost(self.grammar, steps) if production is not None)
-        base = self.grammar.base_derivation(derivation)
-        return RollOut(path, Proposal(self.grammar.tree(form), base, scenario, scenario + 1))
+        edges = self.dag.edges
+        template = rearranged(self.dag.grammar, ((edges.place[edge], edges.production[edge]) for edge in path))
+        derivation = complete(template, self._finished(self.dag.texts[edges.child[path[-1]] if path else ROOT]))
+        base = self.dag.grammar.base_derivation(derivation)
+        return RollOut(path, Proposal(self._states.tree(derivation), base, scenario, scenario + 1))
 
-    def _steps(self, path: tuple[Node, ...]) -> list[Step]:
-        steps: list[Step] = []
-        for parent, child in pairwise(path):
-            production = parent.children[child.number][1]
-            steps.append((parent.form, position_of(self.grammar, parent.form, production, child.form), production))
-        return steps
+    def _finished(self, text: str) -> list[Derivation]:
+        """A random derivation from each of a form's nonterminals."""
+        walks: dict[int, Walk] = {}
+        for piece in self.dag.pieces.split(text):
+            walks.update(dict.fromkeys(piece.places, Walk(self._forks.at(piece.text))))
+        found: list[Derivation] = []
+        left = self.longest
+        for place, symbol in enumerate(self.dag.spelling.nonterminals(text)):
+            found.append(self._derived(symbol, walks[place], left))
+            left -= len(found[-1])
+        return found
 
-    def _random(self, form: SententialForm) -> int:
-        legal = self.grammar.legal(form)
-        weights = [self.grammar.productions[production].weight for production in legal]
-        drawn = float(self.rng.random()) * sum(weights)
-        for production, weight in zip(legal, weights, strict=True):
-            drawn -= weight
-            if drawn < 0.0:
-                return production
-        return legal[-1]
-
-    def _shortest(self, form: SententialForm) -> int:
-        """One of the productions after which the fewest are left to do."""
-        legal = self.grammar.legal(form)
-        least = min(self._least[production] for production in legal)
-        return pick([production for production in legal if self._least[production] == least], self.rng)
+    def _derived(self, symbol: str, walk: Walk, longest: int) -> Derivation:
+        """A random derivation from the first nonterminal of what is left of a piece."""
+        found: list[int] = []
+        independent, rng = self.dag.pieces.independent, self.rng
+        stack = [(symbol, walk)]
+        while stack:
+            symbol, walk = stack.pop()
+            if symbol in independent and walk.fork.text != symbol:
+                walk = Walk(self._forks.at(symbol))
+            fork = walk.fork
+            production = fork.draw(rng) if len(found) < longest else pick(fork.shortest, rng)
+            found.append(production)
+            walk.fork = fork.after.get(production) or self._forks.step(fork, production)
+            stack += [(part, walk) for part in self._parts[production]]
+        return tuple(found)
 
 
 def least_steps(grammar: BoundGrammar) -> list[float]:

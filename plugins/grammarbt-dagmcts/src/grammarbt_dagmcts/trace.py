@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from grammarbt.errors import SearcherError
-from grammarbt.grammar import BoundGrammar
-from grammarbt.search import BlockDag, BlockNode
-from grammarbt_dagmcts.dag import Dag, Node
+from grammarbt.grammar import BoundGrammar, SententialForm
+from grammarbt.search import BlockDag
+from grammarbt_dagmcts.dag import Dag
 
 if TYPE_CHECKING:
     import networkx as nx
 
-Vertex: TypeAlias = Node | BlockNode
+Vertex: TypeAlias = tuple[SententialForm, int, float]
+"""A form, its visits and its mean reward."""
+
+Edge: TypeAlias = tuple[int, int, int]
+"""Parent and child, by their place among the vertices, and the production between them."""
 
 
 def file_of_restart(path: Path, number: int) -> Path:
@@ -45,18 +49,25 @@ def write_graphml(path: Path, grammar: BoundGrammar, dags: Iterable[Dag | BlockD
 
 
 def _add(graph: nx.MultiDiGraph[int], grammar: BoundGrammar, dag: Dag | BlockDag) -> None:
-    vertices: Sequence[Vertex] = dag.nodes if isinstance(dag, Dag) else tuple(dag.nodes.values())
-    numbers = {vertex: number for number, vertex in enumerate(vertices, graph.number_of_nodes())}
-    for vertex, number in numbers.items():
-        mean = vertex.mean if vertex.visits else 0.0
-        graph.add_node(number, form=grammar.text(vertex.form), visits=vertex.visits, mean=mean)
-    for vertex in vertices:
-        for child, production in _edges(vertex):
-            graph.add_edge(numbers[vertex], numbers[child], production=grammar.production_text(production))
+    before = graph.number_of_nodes()
+    vertices, edges = _of_forms(dag) if isinstance(dag, Dag) else _of_blocks(dag)
+    for number, (form, visits, mean) in enumerate(vertices, before):
+        graph.add_node(number, form=grammar.text(form), visits=visits, mean=mean)
+    for parent, child, production in edges:
+        graph.add_edge(before + parent, before + child, production=grammar.production_text(production))
 
 
-def _edges(vertex: Vertex) -> Iterator[tuple[Vertex, int]]:
-    if isinstance(vertex, Node):
-        yield from vertex.children.values()
-    else:
-        yield from ((child, production) for production, child, _ in vertex.children or ())
+def _of_forms(dag: Dag) -> tuple[list[Vertex], list[Edge]]:
+    rewards, edges = dag.rewards, dag.edges
+    vertices = [(dag.form(node), rewards.visits[node], rewards.mean(node)) for node in range(len(dag))]
+    return vertices, list(zip(edges.parent, edges.child, edges.production, strict=True))[1:]
+
+
+def _of_blocks(dag: BlockDag) -> tuple[list[Vertex], list[Edge]]:
+    nodes = tuple(dag.nodes.values())
+    numbers = {node: number for number, node in enumerate(nodes)}
+    vertices = [(node.form, node.visits, node.mean if node.visits else 0.0) for node in nodes]
+    edges = [
+        (numbers[node], numbers[child], production) for node in nodes for production, child, _ in node.children or ()
+    ]
+    return vertices, edges

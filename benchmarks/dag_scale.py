@@ -1,7 +1,7 @@
 """What searching costs besides simulating, as the graph of a search grows: microseconds an iteration, bytes a node.
 
-    python benchmarks/dag_scale.py --nodes 1000000
-    python benchmarks/dag_scale.py --nodes 100000 --searcher dagmcts preset=paper restarts=false
+    python benchmarks/dag_scale.py --iterations 100000
+    python benchmarks/dag_scale.py --nodes 1000000 --searcher dagmcts preset=paper restarts=false
 
 The searcher proposes trees and is told made-up returns that depend on tree and scenario alone. Time is processor time of
 `ask` and `tell`; memory is what the process gained since the searcher was made.
@@ -26,14 +26,14 @@ if TYPE_CHECKING:
     from grammarbt.search import Proposal, Searcher
 
 DOMAIN = f"{Path(__file__).with_name('clockwork.py')}:Clockwork"
-FIRST_ROW = 1_000
-MOST_ITERATIONS = 20_000_000
+FIRST_ITERATIONS = 1_024
 
 
 def main() -> None:
-    """Print a row each time the graph has doubled."""
+    """Print a row each time the iterations have doubled."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--nodes", type=int, default=1_000_000)
+    parser.add_argument("--nodes", type=int, default=1_000_000, help="where to end")
+    parser.add_argument("--iterations", type=int, default=20_000_000, help="or where to end")
     parser.add_argument("--domain", default=DOMAIN)
     parser.add_argument("--searcher", nargs="+", default=["dagmcts"], metavar=("NAME", "KEY=VALUE"))
     arguments = parser.parse_args()
@@ -41,17 +41,21 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         given = dict(setting.split("=", 1) for setting in settings)
         spec = RunSpec(
-            domain=arguments.domain, searcher=name, budget=MOST_ITERATIONS, out=folder, set={"searcher": given}
+            domain=arguments.domain,
+            searcher=name,
+            budget=10 * arguments.iterations,
+            out=folder,
+            set={"searcher": given},
         )
         searcher = prepare(spec, Registry(PluginHost(PluginOptions(), print))).searcher
     print("     nodes  iterations  µs an iteration  bytes a node")
-    grow(searcher, arguments.nodes)
+    grow(searcher, arguments.nodes, arguments.iterations)
 
 
-def grow(searcher: Searcher, nodes: int) -> None:
-    """Search until there are so many nodes, or nothing is left to propose."""
-    before, seconds, iterations, row = resident(), 0.0, 0, FIRST_ROW
-    while searcher.metrics()["nodes"] < nodes:
+def grow(searcher: Searcher, nodes: int, most: int) -> None:
+    """Search until there are so many nodes or iterations, or nothing is left to propose."""
+    before, seconds, iterations, row = resident(), 0.0, 0, FIRST_ITERATIONS
+    while iterations < most and searcher.metrics()["nodes"] < nodes:
         started = time.process_time()
         proposals = searcher.ask(1)
         between = time.process_time()
@@ -62,7 +66,7 @@ def grow(searcher: Searcher, nodes: int) -> None:
         iterations += len(proposals)
         if not proposals:
             break
-        if searcher.metrics()["nodes"] >= row:
+        if iterations == row:
             row *= 2
             show(searcher, seconds, iterations, resident() - before)
     show(searcher, seconds, iterations, resident() - before)

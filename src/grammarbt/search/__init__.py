@@ -6,21 +6,24 @@ from grammarbt.search.base import Evaluation, EvaluationStatus, Proposal, Search
 from grammarbt.search.batches import Batches, BatchSearcher, Scenarios, Strategy, Width
 from grammarbt.search.behaviours import behaviour_of
 from grammarbt.search.blocks import Behaviour, BlockDag, BlockNode, Piece, Stream, piece_of
-from grammarbt.search.climb import Climb, ClimbParameters
+from grammarbt.search.climb import Climb
+from grammarbt.search.climbparameters import ClimbParameters
 from grammarbt.search.derivations import Step, block_derivations, complete, leftmost, position_of, rearranged
-from grammarbt.search.edits import Edits, Site
+from grammarbt.search.derivationtree import DerivationTree
+from grammarbt.search.edits import Edits
 from grammarbt.search.evolution import Evolution, EvolutionParameters
 from grammarbt.search.fame import HallOfFame
 from grammarbt.search.general import GeneralSearch, search_any_grammar
 from grammarbt.search.idle import IdleElements
 from grammarbt.search.listmoves import ListNeighbours, ListParts
 from grammarbt.search.listspace import ListSpace, block_dags
-from grammarbt.search.moves import DerivationTree, Moves, pick
+from grammarbt.search.moves import Moves, pick
 from grammarbt.search.race import Runner, closes, differences, judge, next_stage
 from grammarbt.search.rootlist import ListedTree, RootList
 from grammarbt.search.rows import Item, Row, Rows
 from grammarbt.search.scoring import Score, Scorer
 from grammarbt.search.short import ShortFirst
+from grammarbt.search.site import Site
 from grammarbt.search.smallest import smallest_first
 from grammarbt.search.space import Around, EditSpace, Memory, Neighbour, Space
 from grammarbt.search.states import State, States, Transition, Walk

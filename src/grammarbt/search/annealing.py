@@ -15,9 +15,10 @@ from grammarbt.bt import BehaviorTree
 from grammarbt.grammar import Derivation
 from grammarbt.search.base import Proposal, SearchContext
 from grammarbt.search.batches import Batches, Width
-from grammarbt.search.edits import Edits, Site
+from grammarbt.search.edits import Edits
 from grammarbt.search.fame import HallOfFame
 from grammarbt.search.moves import pick
+from grammarbt.search.site import Site
 
 FIRST_TREES = 50
 ELITES = 5

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from attrs import define, field, frozen, validators
+from attrs import define
 
 from grammarbt.bt import BehaviorTree, format_tree
 from grammarbt.errors import SearcherError
 from grammarbt.search.base import SearchContext
 from grammarbt.search.batches import Batches, Scenarios, Width
+from grammarbt.search.climbparameters import ClimbParameters
 from grammarbt.search.fame import HallOfFame
 from grammarbt.search.race import Runner, closes, differences, judge, next_stage
 from grammarbt.search.rootlist import ListedTree
@@ -23,45 +24,6 @@ ELITE_EVERY = 3
 """Every how many restarts the root is the best elite instead of a random tree."""
 LATE = 2
 """From how many times the episodes without progress before the end every restart is from the best elite."""
-
-
-@frozen
-class ClimbParameters:
-    """When to race, how long, and when to restart."""
-
-    first_trees: int = field(
-        default=60,
-        validator=validators.ge(1),
-        metadata={"help": "random trees that the first root is chosen from"},
-    )
-    restart_trees: int = field(
-        default=30,
-        validator=validators.ge(1),
-        metadata={"help": "random trees that a later root is chosen from"},
-    )
-    restart_after: int = field(
-        default=500,
-        validator=validators.ge(1),
-        metadata={"help": "episodes without an accepted proposal before a restart"},
-    )
-    race_episodes: int = field(
-        default=96,
-        validator=validators.ge(1),
-        metadata={"help": "episodes of the longest race against the root"},
-    )
-    duel_episodes: int = field(
-        default=48,
-        validator=validators.ge(1),
-        metadata={"help": "common episodes on which the roots of past restarts are compared"},
-    )
-    round_episodes: int | None = field(
-        default=None,
-        validator=validators.optional(validators.ge(1)),
-        metadata={
-            "help": "where one episode tells a tree's worth: episodes of a round of annealing; unset: a fifth of the "
-            "budget, but no less than 2,500"
-        },
-    )
 
 
 @define(eq=False)

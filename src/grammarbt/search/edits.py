@@ -7,17 +7,17 @@ derived anew around what is there. Every change stays in the language, and short
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import accumulate
 
 import numpy as np
-from attrs import frozen
 
 from grammarbt.grammar import BoundGrammar, Derivation
 from grammarbt.search.derivations import Template
-from grammarbt.search.moves import DerivationTree, Moves, pick
+from grammarbt.search.moves import Moves, pick
 from grammarbt.search.rows import Item, Row, Rows
 from grammarbt.search.short import ShortFirst
+from grammarbt.search.site import Edit, Site, below, row_of
 from grammarbt.search.states import States
 
 SHORTNESS = 0.7
@@ -30,23 +30,6 @@ ACROSS = 0.4
 """Chance that a moved item goes to another row."""
 KEEP = 0.3
 """Chance that what is derived around a segment keeps its own items too."""
-
-
-@frozen(eq=False)
-class Site:
-    """A derivation with its tree and its rows, from which edits begin."""
-
-    tree: DerivationTree
-    rows: list[Row]
-    uses: frozenset[int | None]
-
-    def rewritten(self, row: Row, part: Template | None) -> Template | None:
-        """The derivation with a row written anew."""
-        return None if part is None else self.tree.replaced(row.node, part)
-
-
-Edit = Callable[[Site, Site, np.random.Generator], Template | None]
-"""Changes the first site at random, and may borrow from the second; the result may have open places."""
 
 
 class Edits:
@@ -146,7 +129,7 @@ class Edits:
 
     def copy(self, site: Site, other: Site, rng: np.random.Generator) -> Template | None:
         """An item of another derivation, anywhere in a row."""
-        source, row = _row(other, rng), _row(site, rng)
+        source, row = row_of(other, rng), row_of(site, rng)
         if source is None or row is None:
             return None
         at = below(len(row.items) + 1, rng)
@@ -159,7 +142,7 @@ class Edits:
 
     def delete(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:
         """A row without one of its items."""
-        row = _row(site, rng)
+        row = row_of(site, rng)
         if row is None:
             return None
         at = below(len(row.items), rng)
@@ -167,7 +150,7 @@ class Edits:
 
     def replace(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:
         """A new item for an old one."""
-        row = _row(site, rng)
+        row = row_of(site, rng)
         if row is None:
             return None
         at = below(len(row.items), rng)
@@ -175,7 +158,7 @@ class Edits:
 
     def splice(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:
         """The items of a row inside an item, in the place of that item."""
-        row = _row(site, rng)
+        row = row_of(site, rng)
         if row is None:
             return None
         at = below(len(row.items), rng)
@@ -187,7 +170,7 @@ class Edits:
 
     def move(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:
         """An item in another place of its row, or in another row."""
-        row = _row(site, rng)
+        row = row_of(site, rng)
         if row is None:
             return None
         left = list(row.items)
@@ -243,7 +226,7 @@ class Edits:
 
     def enclose(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:
         """A new item around a few neighbours in a row."""
-        row = _row(site, rng)
+        row = row_of(site, rng)
         if row is None:
             return None
         first = below(len(row.items), rng)
@@ -253,7 +236,7 @@ class Edits:
 
     def convert(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:
         """What is around a row derived anew, around the same items."""
-        row = _row(site, rng)
+        row = row_of(site, rng)
         if row is None:
             return None
         above = [node for node in self._open_to_choice(site) if node < row.node < site.tree.ends[node]]
@@ -274,18 +257,3 @@ class Edits:
         at = below(len(row.items) + 1, rng)
         cut = (at, at) if rng.random() < KEEP else (0, len(row.items))
         return self._spliced(site, row, cut, kept) if kept else None
-
-
-def _row(site: Site, rng: np.random.Generator) -> Row | None:
-    """A row, the more likely the more items it has; None if there is none."""
-    drawn = below(sum(len(row.items) for row in site.rows), rng)
-    for row in site.rows:
-        drawn -= len(row.items)
-        if drawn < 0:
-            return row
-    return None
-
-
-def below(n: int, rng: np.random.Generator) -> int:
-    """A whole number from 0 to n - 1."""
-    return int(rng.random() * n)

@@ -12,7 +12,8 @@ from grammarbt.grammar import Derivation, parse_tree
 from grammarbt.search.annealing import AnnealedSearch
 from grammarbt.search.base import Proposal, SearchContext
 from grammarbt.search.batches import Batches, Strategy, Width
-from grammarbt.search.climb import Climb, ClimbParameters
+from grammarbt.search.climb import Climb
+from grammarbt.search.climbparameters import ClimbParameters
 from grammarbt.search.edits import Edits
 from grammarbt.search.space import EditSpace
 

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from grammarbt.bt import Action, Condition
-from grammarbt.search.moves import DerivationTree, Moves
+from grammarbt.search.derivationtree import DerivationTree
+from grammarbt.search.moves import Moves
 
 
 class IdleElements:

@@ -9,7 +9,7 @@ from attrs import frozen
 
 from grammarbt.grammar import BoundGrammar
 from grammarbt.search.derivations import Template
-from grammarbt.search.moves import DerivationTree
+from grammarbt.search.derivationtree import DerivationTree
 
 Shape: TypeAlias = tuple[int, ...]
 """The symbols that an item brings."""

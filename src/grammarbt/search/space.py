@@ -11,9 +11,10 @@ from attrs import define, field, frozen
 from grammarbt.bt import BehaviorTree
 from grammarbt.grammar import parse_tree
 from grammarbt.search.bandits import Arm
-from grammarbt.search.edits import Edits, Site
+from grammarbt.search.edits import Edits
 from grammarbt.search.race import Runner
 from grammarbt.search.rootlist import ListedTree
+from grammarbt.search.site import Site
 
 DRAWS = 200
 

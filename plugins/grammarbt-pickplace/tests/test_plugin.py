@@ -13,8 +13,9 @@ from grammarbt.bt import Action, Condition, Fallback, Sequence, format_tree, lea
 from grammarbt.grammar import Source, bind, load_grammar, parse_tree
 from grammarbt_pickplace import hooks
 from grammarbt_pickplace.domain import PickPlace
-from grammarbt_pickplace.kernel import HAVE_BLOCK, LEAVES
+from grammarbt_pickplace.kernel.leaves import HAVE_BLOCK
 from grammarbt_pickplace.parameters import PickPlaceParameters
+from grammarbt_pickplace.program import LEAVES
 from grammarbt_pickplace.tasks import TASKS
 
 MOST_NODES = 50

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from grammarbt.bt import walk
 from grammarbt.domain import Outcome
 from grammarbt.domain.plain import record
-from grammarbt_pickplace import kernel
+from grammarbt_pickplace.kernel.episodes import simulate
 from grammarbt_pickplace.parameters import PickPlaceParameters
 from grammarbt_pickplace.picture import BOX
 from grammarbt_pickplace.plain import PlainPickPlace
+from grammarbt_pickplace.program import LEAVES, make_program
 from grammarbt_pickplace.state import MEMORY, STATE
 from grammarbt_pickplace.tasks import TASKS
 
@@ -37,7 +37,7 @@ class PickPlace:
         self.vocabulary = self._task.vocabulary
         self.references = self._task.references
         self._starts = np.array(self._task.starts)
-        self._codes = np.array([kernel.LEAVES.index(leaf.name) for leaf in self.vocabulary.leaves], dtype=np.int32)
+        self._codes = np.array([LEAVES.index(leaf.name) for leaf in self.vocabulary.leaves], dtype=np.int32)
 
     def simulate(self, policy: Policy, scenarios: Scenarios) -> Outcome:
         """Run one episode per scenario; in S2 that is a run per table, and the return their mean."""
@@ -45,19 +45,10 @@ class PickPlace:
         state["stochastic"] = self.parameters.stochastic
         memory = np.zeros(policy.occurrences, dtype=MEMORY)
         numbers = np.array(scenarios, dtype=np.int64)  # read-only or strided arrays would be compiled for anew
-        return Outcome(*kernel.simulate(self._program(policy), state, memory, self._starts, numbers))
+        program = make_program(policy, self._codes)
+        return Outcome(*simulate(program, state, memory, self._starts, numbers))
 
     def episode(self, policy: Policy, scenario: int) -> Episode:
         """The episode that `simulate` scores; in S2 its runs follow each other, and the reward is their mean so far."""
         world = PlainPickPlace(self._task, policy.tree, scenario, stochastic=self.parameters.stochastic)
         return record(world, policy.tree, BOX, "points")
-
-    def _program(self, policy: Policy) -> kernel.Program:
-        entries = np.empty(len(policy.leaf), dtype=kernel.ENTRY)
-        entries["leaf"] = self._codes[policy.leaf]
-        entries["occurrence"] = policy.occurrence
-        follow = entries["follow"]
-        follow[:, kernel.SUCCESS] = policy.on_success
-        follow[:, kernel.FAILURE] = policy.on_failure
-        follow[:, kernel.RUNNING] = policy.on_running
-        return kernel.Program(entries, sum(1 for _ in walk(policy.tree)))

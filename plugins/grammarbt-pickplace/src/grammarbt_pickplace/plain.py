@@ -1,4 +1,4 @@
-"""The simulator in plain Python: to compare with, and to watch; the rules are told in `kernel.py`.
+"""The simulator in plain Python: to compare with, and to watch; the rules are told in `kernel/__init__.py`.
 
 It walks the tree leaf by leaf and shares with the compiled simulator only the task and the published numbers.
 """
@@ -12,7 +12,7 @@ from attrs import define
 
 from grammarbt.bt import Condition, Leaf, Status, leaves, walk
 from grammarbt.domain.chance import mix
-from grammarbt_pickplace.kernel import ENOUGH_SUCCESSES, MAX_FAILURES, MAX_TICKS
+from grammarbt_pickplace.constants import ENOUGH_SUCCESSES, MAX_FAILURES, MAX_TICKS
 from grammarbt_pickplace.picture import draw
 from grammarbt_pickplace.plain_robot import PlainRobot
 

@@ -6,7 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from grammarbt.domain.chance import uniform
-from grammarbt_pickplace import kernel
+from grammarbt_pickplace import constants
+from grammarbt_pickplace.program import LEAVES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -15,13 +16,13 @@ if TYPE_CHECKING:
 
 PLACES = ("pick0", "pick1", "pick2", "place", "spawn", "elsewhere")
 POSES: dict[str, tuple[float, float]] = {
-    place: (x, y) for place, (x, y) in zip(PLACES, kernel.POSES.tolist(), strict=False)
+    place: (x, y) for place, (x, y) in zip(PLACES, constants.POSES.tolist(), strict=False)
 }
 FACING: dict[str, tuple[float, float]] = {
-    place: (x, y) for place, (x, y) in zip(PLACES, kernel.FACING.tolist(), strict=True)
+    place: (x, y) for place, (x, y) in zip(PLACES, constants.FACING.tolist(), strict=True)
 }
-GOAL: Point = tuple(kernel.GOAL.tolist())
-FIRST_ESTIMATE: tuple[float, float] = tuple(kernel.FIRST_ESTIMATE.tolist())
+GOAL: Point = tuple(constants.GOAL.tolist())
+FIRST_ESTIMATE: tuple[float, float] = tuple(constants.FIRST_ESTIMATE.tolist())
 
 
 class PlainRobot:
@@ -86,7 +87,7 @@ class PlainRobot:
         """Do the action, and let its time pass; whether it succeeded."""
         self.set_at_work(action, at_work=False)
         self.acts += 1
-        self.time += float(kernel.SECONDS[kernel.LEAVES.index(action)])
+        self.time += float(constants.SECONDS[LEAVES.index(action)])
         if action in {"head up", "head down"}:
             self.head = action.removeprefix("head ")
             return True
@@ -102,7 +103,7 @@ class PlainRobot:
         return {"tuck": self._tuck, "pick": self._pick, "place": self._put, "localise": self._localise}[action]()
 
     def _localise(self) -> bool:
-        self.localised = not self._goes_wrong(kernel.OUTCOME, kernel.LOCALISE_FAILS)
+        self.localised = not self._goes_wrong(constants.OUTCOME, constants.LOCALISE_FAILS)
         if self.localised:
             self.news.append("localised")
         return self.localised
@@ -117,12 +118,12 @@ class PlainRobot:
         x, y = self.estimate
         if self.place != place and self.localised and self.head == "up" and self.arm in {"tucked", "at pick"}:
             self._drive(place)
-        self.time += _length(self.pose[0] - x, self.pose[1] - y) / kernel.SPEED
+        self.time += _length(self.pose[0] - x, self.pose[1] - y) / constants.SPEED
         return self.place == place
 
     def _drive(self, place: str) -> None:
-        dropped = self.held is not None and self._goes_wrong(kernel.DROPPING, kernel.DROPPED)
-        lost = self._goes_wrong(kernel.LOSING, kernel.LOST)
+        dropped = self.held is not None and self._goes_wrong(constants.DROPPING, constants.DROPPED)
+        lost = self._goes_wrong(constants.LOSING, constants.LOST)
         (x, y), (goal_x, goal_y) = self.estimate, POSES[place]
         if dropped or lost:
             self.place, self.pose = "elsewhere", ((x + goal_x) / 2.0, (y + goal_y) / 2.0)
@@ -133,14 +134,14 @@ class PlainRobot:
             self._lose_cube()
         if lost:
             self.localised = False
-            self.estimate = self._noisy_pose(kernel.LOST_ESTIMATE)
+            self.estimate = self._noisy_pose(constants.LOST_ESTIMATE)
             self.news.append("lost its way")
 
     def _pick(self) -> bool:
         nearest = self.to_robot.index(min(self.to_robot))
         ready = self.localised and self.head == "down" and self.arm == "tucked"
-        in_reach = self.place not in {"spawn", "elsewhere"} and self.to_robot[nearest] < kernel.REACH
-        success = ready and in_reach and not self._goes_wrong(kernel.OUTCOME, kernel.PICK_FAILS)
+        in_reach = self.place not in {"spawn", "elsewhere"} and self.to_robot[nearest] < constants.REACH
+        success = ready and in_reach and not self._goes_wrong(constants.OUTCOME, constants.PICK_FAILS)
         if success:
             self.held, self.arm = nearest, "at pick"
             self.news.append(f"cube {nearest} picked")
@@ -150,7 +151,7 @@ class PlainRobot:
 
     def _put(self) -> bool:
         ready = self.localised and self.head == "down" and self.place == "place"
-        if self.held is None or not ready or self._goes_wrong(kernel.OUTCOME, kernel.PLACE_FAILS):
+        if self.held is None or not ready or self._goes_wrong(constants.OUTCOME, constants.PLACE_FAILS):
             return False
         self.news.append(f"cube {self.held} placed")
         self.cubes[self.held], self.held, self.arm = GOAL, None, "at place"
@@ -165,16 +166,16 @@ class PlainRobot:
     def _update(self) -> None:
         """Estimate the pose anew, carry a held cube along, and measure all distances."""
         if self.localised:
-            self.estimate = self._noisy_pose(kernel.ESTIMATE)
+            self.estimate = self._noisy_pose(constants.ESTIMATE)
         else:
             x, y = self.estimate
-            self.estimate = x + 1.5 + self._uniform(kernel.ESTIMATE), y + 1.5 + self._uniform(kernel.ESTIMATE + 1)
+            self.estimate = x + 1.5 + self._uniform(constants.ESTIMATE), y + 1.5 + self._uniform(constants.ESTIMATE + 1)
         if self.held is not None:
             x, y = (
-                here + 0.3 * ahead + (0.2 * self._uniform(kernel.CUBE + axis) - 0.1)
+                here + 0.3 * ahead + (0.2 * self._uniform(constants.CUBE + axis) - 0.1)
                 for axis, (here, ahead) in enumerate(zip(self.pose, FACING[self.place], strict=True))
             )
-            self.cubes[self.held] = (x, y, 1.3 + 0.1 * self._uniform(kernel.CUBE + 2))
+            self.cubes[self.held] = (x, y, 1.3 + 0.1 * self._uniform(constants.CUBE + 2))
         self._measure()
 
     def _noisy_pose(self, decides: int) -> tuple[float, float]:

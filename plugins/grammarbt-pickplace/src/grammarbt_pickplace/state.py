@@ -11,6 +11,13 @@ Records: TypeAlias = NDArray[np.void]
 
 MAX_CUBES = 3
 
+STRETCHED, TUCKED, AT_PICK, AT_PLACE = range(4)
+"""Postures of the arm."""
+NOTHING = -1
+"""In the place of a cube."""
+FRESH = -1
+"""In the place of the answer of an action node that is to begin."""
+
 STATE = np.dtype(
     [
         ("key", np.uint64),  # what makes the scenario's chance its own

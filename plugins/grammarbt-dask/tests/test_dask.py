@@ -59,17 +59,13 @@ def test_the_journal_is_that_of_a_serial_run(tmp_path, serial, workers):
 
 def test_calls_run_in_worker_processes_that_were_made_ready_once(dask, tmp_path):
     marks = tmp_path / "marks"
-    executor = dask(workers=2, initializer=partial(note_process, marks))
+    note_process = partial(os.system, f"echo $PPID >> '{marks}'")  # what workers can import wherever pytest was started
+    executor = dask(workers=2, initializer=note_process)
     processes = {future.result() for future in [executor.submit(os.getpid) for _ in range(40)]}
     assert os.getpid() not in processes
     noted = marks.read_text().split()
     assert sorted(noted) == sorted(set(noted))
     assert {str(process) for process in processes} <= set(noted)
-
-
-def note_process(file):
-    with file.open("a") as marks:
-        marks.write(f"{os.getpid()}\n")
 
 
 def test_many_short_calls_travel_in_few_bundles(dask, tmp_path):

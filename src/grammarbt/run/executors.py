@@ -96,7 +96,7 @@ class ProcessExecutor(Executor):
         del cancel_futures
         self._threads.shutdown(wait=False, cancel_futures=True)
         for worker in self._workers:
-            worker.end()
+            worker.close()
         self._threads.shutdown(wait=wait)
 
     def _call(self, call: Callable[[], Answer]) -> Answer:

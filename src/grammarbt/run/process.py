@@ -62,6 +62,7 @@ class Worker:
         self._limits = limits
         self._process: ForkServerProcess | None = None
         self._connection: Connection
+        self._closed = False
 
     def call(self, call: Callable[[], Answer]) -> Answer:
         """The call's answer.
@@ -76,6 +77,11 @@ class Worker:
                 return self._call(call)
         self._start()
         return self._call(call)
+
+    def close(self) -> None:
+        """End the process for good: a call that begins meanwhile gets no new one."""
+        self._closed = True
+        self.end()
 
     def end(self, patience: float = 0.0) -> int | None:
         """Kill the process, unless it ends by itself in time; its exit code, negative for a signal."""
@@ -129,9 +135,13 @@ class Worker:
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload([_WORKER_MODULE])
         self._connection, theirs = context.Pipe()
-        self._process = context.Process(target=_serve, args=(theirs, self._initializer), daemon=True)
-        self._process.start()
+        process = context.Process(target=_serve, args=(theirs, self._initializer), daemon=True)
+        process.start()
+        self._process = process
         theirs.close()
+        if self._closed:
+            self.end()
+            raise BrokenExecutor("the worker processes were shut down")
         try:
             _unpacked(self._connection.recv())
         except (EOFError, ConnectionError):

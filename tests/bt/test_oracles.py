@@ -84,8 +84,8 @@ def test_ticking_is_far_faster_than_in_py_trees(nodes, benchmarks):
     ticking, rng = benchmarks("ticking"), np.random.default_rng(1)
     trees = [ticking.random_tree(rng, "paper", nodes) for _ in range(3)]
 
-    def is_fast(times):  # other tests run at the same time; benchmarks/ticking.py has the figures that are claimed
-        return times["py_trees"] / times["flat"] > 120 and times["py_trees"] / times["generated source"] > 250
+    def is_fast(times):  # other tests run at the same time, so one round may be slow
+        return times["py_trees"] / times["flat"] > 120 and times["py_trees"] / times["generated source"] > 300
 
     assert any(is_fast(ticking.seconds_a_tick(rng, trees)) for _ in range(8))
 

@@ -9,7 +9,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from grammarbt.bt import Action, Condition, Parallel, Status, compile_policy, flatten, leaves, parse, tick
+from grammarbt.bt import (
+    Action,
+    Condition,
+    Parallel,
+    Sequence,
+    Status,
+    canonical_key,
+    compile_policy,
+    flatten,
+    leaves,
+    parse,
+    tick,
+)
 from grammarbt.errors import DomainError
 
 ANSWERS = (Status.SUCCESS, Status.FAILURE, Status.RUNNING)
@@ -95,6 +107,13 @@ def test_nested_parallels_end_in_an_error_and_not_in_an_explosion():
     with pytest.raises(DomainError, match="unroll to more than 100,000 steps"):
         flatten(tree)
     assert time.process_time() - begin < 5
+
+
+@pytest.mark.parametrize("compiled", [flatten, canonical_key])
+def test_a_tree_of_too_many_leaves_is_an_error(compiled):
+    tree = Sequence(tuple(Action(f"a{number}") for number in range(100_001)))
+    with pytest.raises(DomainError, match="more than 100,000 steps"):
+        compiled(tree)
 
 
 def test_a_parallel_of_many_children_compiles():

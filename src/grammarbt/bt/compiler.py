@@ -49,12 +49,18 @@ def compile_steps(tree: BehaviorTree) -> Steps:
     """Compile a tree.
 
     Raises:
-        DomainError: nested parallel nodes need more than `MAX_STEPS` steps.
+        DomainError: it needs more than `MAX_STEPS` steps, as nested parallel nodes may.
     """
     compiler = _Compiler()
     first = compiler.compile(tree, SUCCESS, FAILURE, RUNNING)
+    if len(compiler.steps) > MAX_STEPS:
+        raise _too_many()
     steps = Steps(compiler.steps, first, -compiler.behind)
     return _reachable(steps) if compiler.copied else steps
+
+
+def _too_many() -> DomainError:
+    return DomainError(f"the tree's parallel nodes unroll to more than {MAX_STEPS:,} steps", "nest fewer of them")
 
 
 def _reachable(steps: Steps) -> Steps:
@@ -107,10 +113,8 @@ class _Compiler:
         at = self._known.get(key)
         if at is None:
             at = self._known[key] = len(self.steps)
-            if at >= MAX_STEPS:
-                raise DomainError(
-                    f"the tree's parallel nodes unroll to more than {MAX_STEPS:,} steps", "nest fewer of them"
-                )
+            if at >= MAX_STEPS:  # at once: they could go on for ever
+                raise _too_many()
             self.steps.append((leaf, *key))
         return at
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain, product
 from typing import TypeAlias
 
+from grammarbt.grammar.reach import reachable
 from grammarbt.grammar.table import CLOSE, Production, ProductionTable
 
 EDGE = -1_000_000_000
@@ -57,14 +58,7 @@ def _nullable(rows: Mapping[int, Sequence[_Row]]) -> frozenset[int]:
 
 def _first(symbol: int, rows: Mapping[int, Sequence[_Row]], empty: frozenset[int]) -> _Row:
     """The first symbols of the forms that the nonterminal leads to, itself included."""
-    met = {symbol: None}
-    pending = [symbol]
-    while pending:
-        for row in rows.get(pending.pop(), ()):
-            new = [one for one in _leading(row, empty) if one not in met]
-            met.update(dict.fromkeys(new))
-            pending += new
-    return tuple(met)
+    return tuple(reachable(symbol, lambda one: chain.from_iterable(_leading(row, empty) for row in rows.get(one, ()))))
 
 
 def _leading(row: _Row, empty: frozenset[int]) -> _Row:

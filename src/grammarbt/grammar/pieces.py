@@ -9,6 +9,7 @@ from __future__ import annotations
 from attrs import define, field
 
 from grammarbt.grammar.bound import BoundGrammar
+from grammarbt.grammar.reach import reachable
 from grammarbt.grammar.spelling import CLOSED, Spelling
 
 MAX_KEPT = 200_000
@@ -116,12 +117,11 @@ class Pieces:
 def is_independent(grammar: BoundGrammar, nonterminal: int) -> bool:
     """Whether what the nonterminal derives has no say in what may stand around it."""
     around = grammar.encloses_of(nonterminal)
-    pending, met = [nonterminal], {nonterminal}
-    while pending:
-        for production in grammar.by_lhs.get(pending.pop(), ()):
-            if any(production.use[constraint] for constraint in around):
-                return False
-            new = [symbol for symbol in production.rhs if grammar.is_nonterminal(symbol) and symbol not in met]
-            met.update(new)
-            pending.extend(new)
+
+    def parts(symbol: int) -> list[int]:
+        return [part for production in grammar.by_lhs.get(symbol, ()) for part in grammar.parts[production.number]]
+
+    below = (production for symbol in reachable(nonterminal, parts) for production in grammar.by_lhs.get(symbol, ()))
+    if any(production.use[constraint] for production in below for constraint in around):
+        return False
     return not around & grammar.depth_constraints

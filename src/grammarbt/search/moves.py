@@ -37,8 +37,7 @@ class Moves:
     def __init__(self, grammar: BoundGrammar, states: States | None = None) -> None:
         self.grammar = grammar
         self.states = states or States(grammar)
-        parts = (filter(grammar.is_nonterminal, production.rhs) for production in grammar.productions)
-        self._parts = [tuple(own) for own in parts]
+        self._parts = grammar.parts
         self._varied = frozenset(lhs for lhs, own in grammar.by_lhs.items() if len(own) > 1)
         self._recursive = {
             lhs: [production.number for production in own if lhs in production.rhs]

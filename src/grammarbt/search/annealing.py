@@ -17,28 +17,34 @@ from grammarbt.search.base import Proposal, SearchContext
 from grammarbt.search.batches import Batches, Width
 from grammarbt.search.edits import Edits
 from grammarbt.search.fame import HallOfFame
-from grammarbt.search.moves import pick
 from grammarbt.search.site import Site
 
 FIRST_TREES = 50
 ELITES = 5
-SHARE_OF_ROUND = 0.2
-"""Share of the budget that a round takes, where its length is not given."""
-FEWEST_IN_ROUND = 2_500
-FROM_ELITE = 1 / 2
-"""Chance that another round begins from an elite rather than from the best of some random trees."""
+FIRST_ROUND = 1_200
+"""Episodes in which the first round cools down, where no number is given."""
+GROWTH = 1.4
+"""How much longer each round is than the one before: most rounds are short, and some are long enough for what is hard."""
+SHARE_OF_FIRST = 1 / 4
+"""Share of the budget that the first round takes at most."""
+AGAIN_EVERY = 3
+"""Every how many rounds one begins from the best elite instead of a random tree."""
+AGAIN = 1 / 4
+"""How much cooler it begins then."""
+COOL = 1 / 16
+"""How much cooler than a round its second part is, in which only small losses are taken."""
+COOL_LENGTH = 1 / 2
+"""Episodes without gain, as a share of the first part's, after which the second ends."""
 LOSSES = 200
 """The first losses, which temperatures are scaled to."""
 SMALL_LOSS, LARGE_LOSS = 0.05, 0.9
 """Quantiles of the losses that count as small and large."""
-HOT, COLD = 40.0, 0.6
+HOT, COLD = 100.0, 0.6
 """The first and the last temperature of a round, in small losses."""
 HOTTEST = 1 / 8
 """The first temperature at most, in large losses."""
 COOLING = 1 / 4
 """The last temperature at most, in first ones."""
-COOL_ROUND = 1 / 16
-"""How much cooler every other round is, which begins from an elite."""
 IDLE = 6
 """Draws per episode of a round after which it ends, though most were known."""
 
@@ -58,7 +64,7 @@ class AnnealedSearch:
     Args:
         context: what to search.
         edits: of the grammar.
-        round_episodes: episodes of a round; None for what suits the budget.
+        round_episodes: episodes in which the first round cools down; None for what suits the budget.
         start: the derivation that the first round begins from, if any.
     """
 
@@ -67,8 +73,7 @@ class AnnealedSearch:
     ) -> None:
         self.rng = context.rng
         self.edits = edits
-        own = max(FEWEST_IN_ROUND, round(context.budget * SHARE_OF_ROUND))
-        self.round_episodes = min(round_episodes or own, max(context.budget, 1))
+        self.round_episodes = round_episodes or max(1, min(FIRST_ROUND, round(SHARE_OF_FIRST * context.budget)))
         self.start = start
         self.values: dict[Derivation, float] = {}
         self.fame = HallOfFame()
@@ -78,22 +83,26 @@ class AnnealedSearch:
         self.rounds = self.accepted = 0
 
     def round(self, width: Width) -> Batches[Place]:
-        """One cooling; gives the best place that it came to."""
-        cool = self.rounds % 2 == 1
-        first = yield from self._first(width, from_elite=cool)
-        best = yield from self._anneal(first, COOL_ROUND if cool else 1.0, width)
+        """Cool down, then search around what came of it as long as that gains; gives the best place."""
+        again = self.rounds % AGAIN_EVERY == AGAIN_EVERY - 1
+        known = len(self.values)
+        first = self.elites[0] if again else (yield from self._first(width))
+        best = yield from self._anneal(first, AGAIN if again else 1.0, width)
+        best = yield from self._polish(best)
+        best = yield from self._anneal(best, COOL, width)
         best = yield from self._polish(best)
         self.rounds += 1
+        if len(self.values) - known >= self.round_episodes:  # in a small language, longer rounds would find nothing new
+            self.round_episodes = round(GROWTH * self.round_episodes)
         self.elites = sorted([*self.elites, best], key=lambda place: -place.value)[:ELITES]
         return best
 
-    def _first(self, width: Width, *, from_elite: bool) -> Batches[Place]:
+    def _first(self, width: Width) -> Batches[Place]:
+        """The start tree, once, or the best of some random trees."""
         if self.start is not None:
             derivation, self.start = self.start, None
             values = yield from self._values([derivation])
             return self._place(derivation, values[0])
-        if self.elites and (from_elite or self.rng.random() < FROM_ELITE):
-            return pick(self.elites, self.rng)
         drawn: list[Derivation] = []
         returns: list[float] = []
         while len(drawn) < FIRST_TREES:
@@ -107,30 +116,34 @@ class AnnealedSearch:
         return Place(derivation, self.edits.site(derivation), value)
 
     def _anneal(self, first: Place, scale: float, width: Width) -> Batches[Place]:
-        """Cool down once; gives the best place seen."""
+        """Cool down once; gives the best place seen. What is cool from the beginning goes on while it gains, and borrows."""
         here = best = first
-        spent = drawn = 0
-        others = [elite.site for elite in self.elites]
-        while spent < self.round_episodes and drawn < IDLE * self.round_episodes:
+        spent = drawn = gained = 0
+        cool = scale == COOL
+        length = round(COOL_LENGTH * self.round_episodes) if cool else self.round_episodes
+        others = [elite.site for elite in self.elites] if cool else []
+        while spent - gained < length and drawn < IDLE * length:
             found = [self.edits.neighbour(here.site, others, self.rng) for _ in range(width())]
             derivations = [derivation for derivation in found if derivation is not None]
             drawn += len(found)
             before = len(self.values)
             values = yield from self._values(derivations)
             spent += len(self.values) - before
-            temperature = scale * self._temperature(min(1.0, spent / self.round_episodes))
+            temperature = scale * self._temperature(min(1.0, spent / length))
             for derivation, value in zip(derivations, values, strict=True):
                 if self._accepts(value - here.value, temperature):
                     here = self._place(derivation, value)
                     self.accepted += 1
                 if here.value > best.value:
                     best = here
+                    if cool:
+                        gained, drawn = spent, 0
         return best
 
     def _polish(self, place: Place) -> Batches[Place]:
         """Drop what is useless, as long as that gains."""
         while True:
-            shorter = self.edits.shorter(place.site, self.rng)
+            shorter = self.edits.shrinking.shorter(place.site, self.rng)
             values = yield from self._values(shorter)
             at = int(np.argmax(values)) if values else 0
             if not values or values[at] <= place.value:

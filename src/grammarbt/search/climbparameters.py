@@ -38,7 +38,7 @@ class ClimbParameters:
         default=None,
         validator=validators.optional(validators.ge(1)),
         metadata={
-            "help": "where one episode tells a tree's worth: episodes of a round of annealing; unset: a fifth of the "
-            "budget, but no less than 2,500"
+            "help": "where one episode tells a tree's worth: episodes in which the first round of annealing cools down; later "
+            "rounds are longer; unset: 1,200, but no more than a quarter of the budget"
         },
     )

@@ -7,6 +7,7 @@ from functools import cached_property
 
 from attrs import field, frozen
 
+from grammarbt.grammar import BoundGrammar
 from grammarbt.search.derivations import Template
 
 
@@ -46,3 +47,22 @@ class DerivationTree:
     def replaced(self, at: int, part: Template) -> Template:
         """The whole derivation with another sub-tree at a node."""
         return self.steps[:at] + part + self.steps[self.ends[at] :]
+
+
+def derivation_tree(grammar: BoundGrammar, steps: Template) -> DerivationTree:
+    """The derivation tree of a leftmost derivation."""
+    parts = grammar.parts
+    symbols: list[int] = []
+    pending = [grammar.start_symbol]
+    for production in steps:
+        symbols.append(pending.pop())
+        if production is not None:
+            pending += reversed(parts[production])
+    ends = [0] * len(steps)
+    for at in range(len(steps) - 1, -1, -1):
+        end, step = at + 1, steps[at]
+        if step is not None:
+            for _ in parts[step]:
+                end = ends[end]
+        ends[at] = end
+    return DerivationTree(steps, tuple(symbols), tuple(ends))

@@ -14,7 +14,7 @@ import numpy as np
 
 from grammarbt.grammar import BoundGrammar, Derivation
 from grammarbt.search.derivations import Template
-from grammarbt.search.derivationtree import DerivationTree
+from grammarbt.search.derivationtree import DerivationTree, derivation_tree
 from grammarbt.search.states import States
 
 Item = TypeVar("Item")
@@ -47,21 +47,7 @@ class Moves:
 
     def tree(self, steps: Template) -> DerivationTree:
         """The derivation tree of a leftmost derivation."""
-        parts = self._parts
-        symbols: list[int] = []
-        pending = [self.grammar.start_symbol]
-        for production in steps:
-            symbols.append(pending.pop())
-            if production is not None:
-                pending += reversed(parts[production])
-        ends = [0] * len(steps)
-        for at in range(len(steps) - 1, -1, -1):
-            end, step = at + 1, steps[at]
-            if step is not None:
-                for _ in parts[step]:
-                    end = ends[end]
-            ends[at] = end
-        return DerivationTree(steps, tuple(symbols), tuple(ends))
+        return derivation_tree(self.grammar, steps)
 
     def regenerate(self, tree: DerivationTree, rng: np.random.Generator, at: int | None = None) -> Derivation | None:
         """Derive the sub-tree of a node again, at random by weight; any node with a choice unless one is given."""

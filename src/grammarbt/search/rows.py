@@ -1,11 +1,15 @@
-"""Lists inside derivations: rows of items, which an author writes as `x+` or as a rule that ends or begins with itself."""
+"""Lists inside derivations: rows of items, which an author writes as `x+` or as a rule that ends or begins with itself.
+
+An item of its own before such a row, as in `x x+`, or behind one that begins with itself, belongs to the row.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import TypeAlias
 
-from attrs import frozen
+from attrs import evolve, frozen
 
 from grammarbt.grammar import BoundGrammar
 from grammarbt.search.derivations import Template
@@ -29,15 +33,19 @@ class Row:
 
     Attributes:
         node: where it begins.
+        end: the node behind it.
         symbol: its nonterminal.
         items: left to right.
         starts: per item, the node where its content begins.
+        own: the nonterminal of the item of its own at the outer end, if there is one.
     """
 
     node: int
+    end: int
     symbol: int
     items: tuple[Item, ...]
     starts: tuple[int, ...]
+    own: int | None = None
 
     def holds(self, item: int, node: int) -> bool:
         """Whether a node lies inside an item."""
@@ -70,6 +78,12 @@ class Rows:
             for production in grammar.productions
             if production.lhs in self._kinds
         }
+        self._beside = {
+            production.number: at
+            for production in grammar.productions
+            if production.lhs not in self._kinds
+            and (at := _beside(self._kinds, grammar.parts[production.number], production.rhs)) is not None
+        }
         self._open = {
             shape: Item(shape, tuple(None for symbol in shape if grammar.is_nonterminal(symbol)))
             for shape, _ in self._shapes.values()
@@ -86,7 +100,19 @@ class Rows:
         for node, symbol in enumerate(tree.symbols):
             if symbol in self._kinds and node not in inside:
                 found.append(self._read(tree, node, inside))
+            elif (at := self._beside.get(tree.steps[node] or 0)) is not None and symbol not in self._kinds:
+                first, second = list(tree.children(node))[at : at + 2]
+                found.append(self._read_beside(tree, first, second, inside))
         return found
+
+    def _read_beside(self, tree: DerivationTree, first: int, second: int, inside: set[int]) -> Row:
+        """The row of two neighbours, an item of its own and a row."""
+        leads = tree.symbols[second] in self._kinds
+        node, alone = (second, first) if leads else (first, second)
+        row, item = self._read(tree, node, inside), Item((tree.symbols[alone],), tree.below(alone))
+        items = (item, *row.items) if leads else (*row.items, item)
+        starts = (alone, *row.starts) if leads else (*row.starts, alone)
+        return evolve(row, node=first, end=tree.ends[second], items=items, starts=starts, own=item.shape[0])
 
     def _read(self, tree: DerivationTree, node: int, inside: set[int]) -> Row:
         symbol = tree.symbols[node]
@@ -105,7 +131,7 @@ class Rows:
             starts.append(begin)
             if not goes_on:
                 order = 1 if right else -1
-                return Row(node, symbol, tuple(items[::order]), tuple(starts[::order]))
+                return Row(node, tree.ends[node], symbol, tuple(items[::order]), tuple(starts[::order]))
             at = below
 
     def _last(self, tree: DerivationTree, node: int) -> int:
@@ -118,8 +144,16 @@ class Rows:
         kind = self._kinds[symbol]
         return item.shape in kind.among or item.shape in kind.alone
 
-    def written(self, symbol: int, items: Sequence[Item]) -> Template | None:
-        """The derivation of a row of these items; None if the nonterminal has no such row."""
+    def written(self, row: Row, items: Sequence[Item]) -> Template | None:
+        """The derivation of a row with these items instead of its own; None if there is no such row."""
+        right = self._kinds[row.symbol].right
+        if row.own is None or not items:
+            return self._written(row.symbol, items)
+        alone, others = (items[0], items[1:]) if right else (items[-1], items[:-1])
+        rest = self._written(row.symbol, others) if alone.shape == (row.own,) else None
+        return None if rest is None else (*alone.content, *rest) if right else (*rest, *alone.content)
+
+    def _written(self, symbol: int, items: Sequence[Item]) -> Template | None:
         kind = self._kinds[symbol]
         last, others = (items[-1:], items[:-1]) if kind.right else (items[:1], items[1:])
         if not items or last[0].shape not in kind.alone or any(item.shape not in kind.among for item in others):
@@ -140,6 +174,22 @@ def _kind(grammar: BoundGrammar, symbol: int) -> _Kind | None:
             among = {(rhs[:-1] if right else rhs[1:]): number for number, rhs in rules if symbol in rhs}
             alone = {rhs: number for number, rhs in rules if symbol not in rhs}
             return _Kind(right, among, alone)
+    return None
+
+
+def _beside(kinds: dict[int, _Kind], parts: Shape, rhs: Shape) -> int | None:
+    """Where, among the parts of a production, an item stands beside a row that it could belong to; None if nowhere."""
+    for at, (first, second) in enumerate(pairwise(parts)):
+        row, alone, right = (second, first, True) if second in kinds else (first, second, False)
+        kind = kinds.get(row)
+        if (
+            kind
+            and alone not in kinds
+            and kind.right == right
+            and (alone,) in kind.among
+            and (first, second) in pairwise(rhs)
+        ):
+            return at
     return None
 
 

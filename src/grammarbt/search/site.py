@@ -7,9 +7,10 @@ from collections.abc import Callable
 import numpy as np
 from attrs import frozen
 
+from grammarbt.grammar import BoundGrammar
 from grammarbt.search.derivations import Template
-from grammarbt.search.derivationtree import DerivationTree
-from grammarbt.search.rows import Row
+from grammarbt.search.derivationtree import DerivationTree, derivation_tree
+from grammarbt.search.rows import Row, Rows
 
 
 @frozen(eq=False)
@@ -22,7 +23,30 @@ class Site:
 
     def rewritten(self, row: Row, part: Template | None) -> Template | None:
         """The derivation with a row written anew."""
-        return None if part is None else self.tree.replaced(row.node, part)
+        steps = self.tree.steps
+        return None if part is None else (*steps[: row.node], *part, *steps[row.end :])
+
+
+class Sites:
+    """Makes sites.
+
+    Args:
+        grammar: the language.
+    """
+
+    def __init__(self, grammar: BoundGrammar) -> None:
+        self.grammar = grammar
+        self.rows = Rows(grammar)
+        self._varied = frozenset(lhs for lhs, own in grammar.by_lhs.items() if len(own) > 1)
+
+    def of(self, derivation: Template) -> Site:
+        """A derivation, ready for edits."""
+        tree = derivation_tree(self.grammar, derivation)
+        return Site(tree, self.rows.of(tree), frozenset(derivation))
+
+    def open_to_choice(self, tree: DerivationTree) -> list[int]:
+        """The nodes whose nonterminal has more than one production."""
+        return [node for node, symbol in enumerate(tree.symbols) if symbol in self._varied]
 
 
 Edit = Callable[[Site, Site, np.random.Generator], Template | None]

@@ -73,10 +73,11 @@ class Newcomer(Terminal):
         self.environment = kept | {"PATH": path, "PIP_NO_CACHE_DIR": "1", "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
 
     def run(self, line: str) -> tuple[str, str]:
-        """As it stands."""
+        """As it stands. Pages do not show what pip says while all goes well."""
         if line.startswith(". "):
             self.activated = f"{line}\n"
-        return self.in_shell(self.activated + line, self.environment)
+        shown, aside = self.in_shell(self.activated + line, self.environment)
+        return ("" if "pip install " in line and self.code == 0 else shown), aside
 
     def steps(self, markdown: str) -> Iterator[Step]:
         """Everything that a page tells to type, with an eye on the clocks."""

@@ -70,6 +70,13 @@ def test_marine_figures_beside_the_paper_s_are_those_on_record():
         assert complete in {row[3] for row in known} or complete == "–", searcher
 
 
+def test_times_of_tutorials_are_those_on_record():
+    record = {cells[0]: cells[2] for cells in rows("../benchmarks/results/tutorials.md", 6)}
+    text = (DOCS / "index.md").read_text(encoding="utf-8")
+    shown = dict(re.findall(r"\(tutorials/([\w-]+)\.md\).* \| (\d+) s \|$", text, re.MULTILINE))
+    assert shown == {path.stem: record[path.stem] for path in (DOCS / "tutorials").glob("*.md")}
+
+
 def test_the_table_of_a_compiled_tree_is_the_compiler_s():
     results = {-1: "SUCCESS", -2: "FAILURE", -3: "RUNNING"}
     entries = flatten(parse("?( (a) →( (b) [c] ) )")).entries

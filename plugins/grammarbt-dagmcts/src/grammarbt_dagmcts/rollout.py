@@ -5,12 +5,12 @@ from __future__ import annotations
 from bisect import bisect_right
 from itertools import accumulate
 
-import numpy as np
 from attrs import define, field, frozen
 
 from grammarbt.grammar import BoundGrammar, Derivation, Pieces
-from grammarbt.search import Proposal, States, complete, pick, rearranged
+from grammarbt.search import Proposal, States, complete, rearranged
 from grammarbt_dagmcts.dag import ROOT, Dag
+from grammarbt_dagmcts.draws import Draws
 
 MAX_FORKS = 100_000
 """Pieces of forms for which it is kept what a roll-out may do next."""
@@ -41,19 +41,6 @@ class Fork:
     bounds: list[float]
     shortest: list[int]
     after: dict[int, Fork] = field(factory=dict)
-
-    def draw(self, rng: np.random.Generator) -> int:
-        """A production by weight."""
-        if len(self.productions) == 1:
-            return self.productions[0]
-        return self.productions[bisect_right(self.bounds, rng.random() * self.bounds[-1])]
-
-
-@define(eq=False)
-class Walk:
-    """A piece that is being derived, from left to right."""
-
-    fork: Fork
 
 
 class Forks:
@@ -95,13 +82,13 @@ class RollOuts:
 
     Args:
         dag: where roll-outs begin.
-        rng: randomness.
+        draws: randomness.
         longest: random productions of a roll-out.
     """
 
-    def __init__(self, dag: Dag, rng: np.random.Generator, longest: int) -> None:
+    def __init__(self, dag: Dag, draws: Draws, longest: int) -> None:
         self.dag = dag
-        self.rng = rng
+        self.draws = draws
         self.longest = longest
         self._states = States(dag.grammar)
         self._forks = Forks(dag.grammar, dag.pieces)
@@ -119,31 +106,44 @@ class RollOuts:
 
     def _finished(self, text: str) -> list[Derivation]:
         """A random derivation from each of a form's nonterminals."""
-        walks: dict[int, Walk] = {}
-        for piece in self.dag.pieces.split(text):
-            walks.update(dict.fromkeys(piece.places, Walk(self._forks.at(piece.text))))
+        pieces = self.dag.pieces.split(text)
+        forks = [self._forks.at(piece.text) for piece in pieces]
+        owner = {place: number for number, piece in enumerate(pieces) for place in piece.places}
         found: list[Derivation] = []
-        left = self.longest
+        longest = self.longest
         for place, symbol in enumerate(self.dag.spelling.nonterminals(text)):
-            found.append(self._derived(symbol, walks[place], left))
-            left -= len(found[-1])
+            number = owner[place]
+            derivation, forks[number] = self._derived(symbol, forks[number], longest)
+            found.append(derivation)
+            longest -= len(derivation)
         return found
 
-    def _derived(self, symbol: str, walk: Walk, longest: int) -> Derivation:
-        """A random derivation from the first nonterminal of what is left of a piece."""
+    def _derived(self, symbol: str, fork: Fork, longest: int) -> tuple[Derivation, Fork]:
+        """A random derivation from the first nonterminal of what is left of a piece, and what is left then."""
         found: list[int] = []
-        independent, rng = self.dag.pieces.independent, self.rng
-        stack = [(symbol, walk)]
+        parts, independent, left = self._parts, self.dag.pieces.independent, self.draws.left
+        stack: list[str] = [symbol]
+        around: list[Fork] = []
         while stack:
-            symbol, walk = stack.pop()
-            if symbol in independent and walk.fork.text != symbol:
-                walk = Walk(self._forks.at(symbol))
-            fork = walk.fork
-            production = fork.draw(rng) if len(found) < longest else pick(fork.shortest, rng)
+            symbol = stack.pop()
+            if not symbol:
+                fork = around.pop()
+                continue
+            if symbol in independent:
+                around.append(fork)
+                stack.append("")
+                fork = self._forks.at(symbol)
+            if len(found) >= longest:
+                production = fork.shortest[self.draws.below(len(fork.shortest))]
+            elif len(fork.productions) == 1:
+                production = fork.productions[0]
+            else:
+                draw = left.pop() if left else self.draws.ready(1).pop()
+                production = fork.productions[bisect_right(fork.bounds, draw * fork.bounds[-1])]
             found.append(production)
-            walk.fork = fork.after.get(production) or self._forks.step(fork, production)
-            stack += [(part, walk) for part in self._parts[production]]
-        return tuple(found)
+            fork = fork.after.get(production) or self._forks.step(fork, production)
+            stack += parts[production]
+        return tuple(found), fork
 
 
 def least_steps(grammar: BoundGrammar) -> list[float]:

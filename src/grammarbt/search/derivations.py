@@ -52,7 +52,7 @@ def block_derivations(grammar: BoundGrammar, derivation: Derivation) -> list[tup
     while at < len(derivation):
         symbol = grammar.productions[derivation[at]].lhs
         if symbol in grammar.blocks:
-            end = end_of(grammar.parts, derivation, at)
+            end = end_of(grammar.growth, derivation, at)
             found.append((symbol, derivation[at:end]))
             at = end
         else:
@@ -76,10 +76,10 @@ def _leads_to(
         return False
 
 
-def end_of(parts: Sequence[tuple[int, ...]], derivation: Derivation, at: int) -> int:
-    """Where the part of a derivation ends that begins at a step; `parts` are the grammar's."""
+def end_of(growth: Sequence[int], derivation: Derivation, at: int) -> int:
+    """Where the part of a derivation ends that begins at a step; `growth` is the grammar's."""
     pending = 1
     while pending:
-        pending += len(parts[derivation[at]]) - 1
+        pending += growth[derivation[at]]
         at += 1
     return at

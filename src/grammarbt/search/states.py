@@ -180,7 +180,7 @@ class States:
             if symbol < self.grammar.start_symbol:
                 tokens.append(terminals[symbol])
             elif symbol in blocks:
-                end = end_of(self.parts, derivation, at)
+                end = end_of(self.grammar.growth, derivation, at)
                 tokens += self._below_block(derivation[at:end])
                 at = end
             else:

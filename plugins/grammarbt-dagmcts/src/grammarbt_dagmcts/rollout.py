@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from itertools import accumulate
+from typing import TypeAlias
 
-from attrs import define, field, frozen
+from attrs import define, frozen
 
 from grammarbt.grammar import BoundGrammar, Derivation, Pieces
 from grammarbt.search import Proposal, States, complete, rearranged
@@ -24,23 +25,25 @@ class RollOut:
     proposal: Proposal
 
 
+Way: TypeAlias = "tuple[int, str, Fork | None]"
+"""A production, the nonterminals that it puts in, last one first, and what is left of the piece then, once it was taken."""
+
+
 @define(eq=False)
 class Fork:
     """What may be done at the first nonterminal of a piece.
 
     Attributes:
-        text: the piece, spelled.
-        productions: the legal ones.
-        bounds: running sums of their weights.
-        shortest: those of them after which the fewest are left to do.
-        after: what is left of the piece after each production, once taken; no text if nothing is.
+        text: the piece, spelled; none if nothing is left of it.
+        ways: what is legal.
+        bounds: running sums of the productions' weights.
+        shortest: places of those ways after which the fewest productions are left to take.
     """
 
     text: str
-    productions: tuple[int, ...]
+    ways: list[Way]
     bounds: list[float]
     shortest: list[int]
-    after: dict[int, Fork] = field(factory=dict)
 
 
 class Forks:
@@ -49,6 +52,8 @@ class Forks:
     def __init__(self, grammar: BoundGrammar, pieces: Pieces) -> None:
         self.grammar = grammar
         self.pieces = pieces
+        names = {symbol: pieces.spelling.text(grammar.start(symbol)) for symbol in grammar.by_lhs}
+        self._parts = tuple("".join(names[part] for part in parts[::-1]) for parts in grammar.parts)
         self._least = least_steps(grammar)
         self._known: dict[str, Fork] = {}
 
@@ -65,15 +70,18 @@ class Forks:
         legal = self.pieces.legal(text, self.pieces.spelling.positions(text)[0]) if text else ()
         weights = (self.grammar.productions[production].weight for production in legal)
         least = min((self._least[production] for production in legal), default=0.0)
-        shortest = [production for production in legal if self._least[production] == least]
-        return Fork(text, legal, list(accumulate(weights)), shortest)
+        shortest = [place for place, production in enumerate(legal) if self._least[production] == least]
+        ways: list[Way] = [(production, self._parts[production], None) for production in legal]
+        return Fork(text, ways, list(accumulate(weights)), shortest)
 
-    def step(self, fork: Fork, production: int) -> Fork:
+    def step(self, fork: Fork, way: int) -> Fork:
         """What is left of a piece; independent nonterminals are pieces of their own."""
         spelling = self.pieces.spelling
+        production, parts, _ = fork.ways[way]
         after = spelling.apply(fork.text, production, spelling.positions(fork.text)[0])
         own = (piece.text for piece in self.pieces.split(after) if piece.text not in self.pieces.independent)
-        left = fork.after[production] = self.at(next(own, ""))
+        left = self.at(next(own, ""))
+        fork.ways[way] = production, parts, left
         return left
 
 
@@ -92,9 +100,6 @@ class RollOuts:
         self.longest = longest
         self._states = States(dag.grammar)
         self._forks = Forks(dag.grammar, dag.pieces)
-        spelled = dag.spelling.text
-        names = {symbol: spelled(dag.grammar.start(symbol)) for symbol in dag.grammar.by_lhs}
-        self._parts = tuple("".join(names[part] for part in parts[::-1]) for parts in dag.grammar.parts)
 
     def below(self, path: tuple[int, ...], scenario: int) -> RollOut:
         """A roll-out from the path's last node, to be simulated on one scenario."""
@@ -121,7 +126,7 @@ class RollOuts:
     def _derived(self, symbol: str, fork: Fork, longest: int) -> tuple[Derivation, Fork]:
         """A random derivation from the first nonterminal of what is left of a piece, and what is left then."""
         found: list[int] = []
-        parts, independent, left = self._parts, self.dag.pieces.independent, self.draws.left
+        independent, drawn = self.dag.pieces.independent, self.draws.left
         stack: list[str] = [symbol]
         around: list[Fork] = []
         while stack:
@@ -134,15 +139,16 @@ class RollOuts:
                 stack.append("")
                 fork = self._forks.at(symbol)
             if len(found) >= longest:
-                production = fork.shortest[self.draws.below(len(fork.shortest))]
-            elif len(fork.productions) == 1:
-                production = fork.productions[0]
+                way = fork.shortest[self.draws.below(len(fork.shortest))]
+            elif len(fork.ways) == 1:
+                way = 0
             else:
-                draw = left.pop() if left else self.draws.ready(1).pop()
-                production = fork.productions[bisect_right(fork.bounds, draw * fork.bounds[-1])]
+                draw = drawn.pop() if drawn else self.draws.ready(1).pop()
+                way = bisect_right(fork.bounds, draw * fork.bounds[-1])
+            production, parts, left = fork.ways[way]
             found.append(production)
-            fork = fork.after.get(production) or self._forks.step(fork, production)
-            stack += parts[production]
+            stack += parts
+            fork = left or self._forks.step(fork, way)
         return tuple(found), fork
 
 

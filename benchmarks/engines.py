@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import re
-import sys
-import tempfile
 from collections.abc import Sequence
 from itertools import count
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 import behaviortreepy
 import py_trees
@@ -33,6 +30,8 @@ from grammarbt.bt.trace import node_statuses
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from console import Console
 
 
 @frozen
@@ -234,29 +233,3 @@ def _with_numbered_controls(xml: str) -> str:
         return f'{opening.group()} name="#{place}"' if opening.group(1) in btcpp.CONTROL else opening.group()
 
     return "<TreeNodesModel>".join((re.sub(r"(?m)^ {4,}<([\w-]+)", name, tree), model))
-
-
-class Console:
-    """The process's standard output, caught in a file while this is open."""
-
-    def __enter__(self) -> Self:
-        """Begin to catch."""
-        sys.stdout.flush()
-        self.file = tempfile.TemporaryFile()
-        self.saved = os.dup(1)
-        os.dup2(self.file.fileno(), 1)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Let go."""
-        os.dup2(self.saved, 1)
-        os.close(self.saved)
-        self.file.close()
-
-    def read(self) -> bytes:
-        """What has been written since the last time."""
-        descriptor = self.file.fileno()
-        data = os.pread(descriptor, os.lseek(descriptor, 0, os.SEEK_CUR), 0)
-        os.ftruncate(descriptor, 0)
-        os.lseek(descriptor, 0, os.SEEK_SET)
-        return data

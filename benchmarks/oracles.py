@@ -14,7 +14,8 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 import numpy as np
-from engines import BehaviorTreeCpp, Console, Ours, PyTrees, has_parallel
+from console import Console
+from engines import BehaviorTreeCpp, Ours, PyTrees, has_parallel
 from random_trees import arbitrary, flattened, paper_shaped
 
 from grammarbt.bt import Action, BehaviorTree, Status, compile_source, format_tree, leaves

@@ -18,7 +18,7 @@ from playwright.sync_api import sync_playwright
 
 from grammarbt.cli import main
 from grammarbt.run.folder import RunFolder
-from grammarbt.run.journal import Journal
+from grammarbt.run.journal import Journal, encoded
 
 LEAVES, IMPROVES, AT_ONCE = 30, 1000, 10_000
 CORRIDOR = f"{Path(__file__).parents[1] / 'docs' / 'examples' / 'corridor.py'}:Corridor"
@@ -32,11 +32,13 @@ def write_run(folder: RunFolder, trials: int) -> None:
     folder.journal.unlink()
     journal = Journal.open(folder.journal)
     for first in range(0, trials, AT_ONCE):
-        journal.append([trial(number) for number in range(first, min(trials, first + AT_ONCE))])
+        journal.append([encoded(trial(number)) for number in range(first, min(trials, first + AT_ONCE))])
     tree = trial(trials - 1)["tree"]
-    journal.append([{"event": "searched", "stopped": "budget", "trials": trials, "episodes": trials}])
-    journal.append([{"event": "validation", "name": "best", "tree": tree, "mean": 1.0, "stderr": 0.1, "episodes": 9}])
-    journal.append([{"event": "finished", "tree": tree, "trials": trials, "episodes": trials, "complete": None}])
+    journal.append([encoded({"event": "searched", "stopped": "budget", "trials": trials, "episodes": trials})])
+    validation = {"event": "validation", "name": "best", "tree": tree, "mean": 1.0, "stderr": 0.1, "episodes": 9}
+    journal.append([encoded(validation)])
+    finished = {"event": "finished", "tree": tree, "trials": trials, "episodes": trials, "complete": None}
+    journal.append([encoded(finished)])
     journal.close()
     folder.timing.write_text("".join(timing(trials)), encoding="utf-8")
 

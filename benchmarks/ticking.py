@@ -10,6 +10,7 @@ next to nothing, in episodes of 100 ticks, beside the same world with its tree i
 from __future__ import annotations
 
 import time
+from functools import partial
 from itertools import count
 from statistics import median
 from typing import TYPE_CHECKING
@@ -38,13 +39,13 @@ from grammarbt.bt.simplify import size
 from grammarbt.domain import ActionType, ConditionType, Group, TickDomain, Vocabulary
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
 TREES, ROUNDS = 15, 9
 ROWS = 200
 REPEATS = {"py_trees": 1}
-OUR_REPEATS = 10
-"""How often the rows are gone through in a round: often enough for the clock."""
+OUR_REPEATS = 50
+"""How often the rows are gone through in a round: often enough for the clock, and for what py_trees left in the caches."""
 
 STATUSES = tuple(Status)
 EPISODES, TICKS = 100, 100
@@ -83,9 +84,10 @@ def seconds_a_tick(rng: np.random.Generator, trees: Iterable[BehaviorTree]) -> d
     times: dict[str, list[float]] = {}
     for tree in trees:
         rows = [[int(rng.integers(3 if isinstance(leaf, Action) else 2)) for leaf in leaves(tree)] for _ in range(ROWS)]
-        for name, loop in loops(tree).items():
-            many = rows * REPEATS.get(name, OUR_REPEATS)
-            times.setdefault(name, []).append(best(lambda loop=loop, many=many: loop(many)) / len(many))
+        ways = {name: (loop, rows * REPEATS.get(name, OUR_REPEATS)) for name, loop in loops(tree).items()}
+        found = fastest([partial(loop, many) for loop, many in ways.values()])
+        for (name, (_, many)), seconds in zip(ways.items(), found, strict=True):
+            times.setdefault(name, []).append(seconds / len(many))
     return {name: median(found) for name, found in times.items()}
 
 
@@ -122,7 +124,7 @@ def print_compiling(trees: list[BehaviorTree]) -> None:
     """What it costs to get there, once for each tree."""
     ways = {"flat form": flatten, "canonical key": canonical_key, "generated source": compile_source}
     for name, way in ways.items():
-        found = [best(lambda way=way, tree=tree: way(tree)) for tree in trees]
+        found = fastest([partial(way, tree) for tree in trees])
         print(f"  to {name:21} {median(found) * 1e6:9.1f} µs a tree")
 
 
@@ -130,8 +132,7 @@ def print_simulating(tree: BehaviorTree) -> None:
     """Episodes a second of a trivial world."""
     world = Trivial()
     policy, scenarios = compile_policy(tree, world.vocabulary.index), np.arange(EPISODES)
-    ours = best(lambda: world.simulate(policy, scenarios))
-    theirs = best(lambda: simulate_in_py_trees(world, tree))
+    ours, theirs = fastest([partial(world.simulate, policy, scenarios), partial(simulate_in_py_trees, world, tree)])
     print(f"a trivial TickDomain, {size(tree)} nodes, {TICKS} ticks an episode")
     print(f"  py_trees                 {EPISODES / theirs:9,.0f} episodes a second")
     print(f"  TickDomain               {EPISODES / ours:9,.0f} episodes a second   {theirs / ours:6.0f} ×")
@@ -148,14 +149,20 @@ def simulate_in_py_trees(world: Trivial, tree: BehaviorTree) -> None:
             world.step()
 
 
-def best(call: Callable[[], object]) -> float:
-    """Seconds of the processor in the fastest round; other programs only ever make a round slower."""
-    seconds = []
-    for _ in range(ROUNDS):
-        begin = time.process_time()
-        call()
-        seconds.append(time.process_time() - begin)
-    return min(seconds)
+def fastest(calls: Sequence[Callable[[], object]]) -> list[float]:
+    """Seconds of the processor in each call's fastest round; other programs only ever make a round slower.
+
+    The calls take turns, since a processor may be slower for a while: what is compared then meets the same moments.
+    """
+    rounds = [[seconds(call) for call in calls] for _ in range(ROUNDS)]
+    return [min(found) for found in zip(*rounds, strict=True)]
+
+
+def seconds(call: Callable[[], object]) -> float:
+    """Of the processor."""
+    begin = time.process_time()
+    call()
+    return time.process_time() - begin
 
 
 class World:

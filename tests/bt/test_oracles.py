@@ -42,21 +42,26 @@ def engines(benchmarks):
     return benchmarks("engines")
 
 
-def test_random_trees_tick_alike_in_py_trees_and_behaviortree_cpp(oracles, engines):
+@pytest.fixture(scope="module")
+def caught(benchmarks):
+    return benchmarks("console").Console
+
+
+def test_random_trees_tick_alike_in_py_trees_and_behaviortree_cpp(oracles, caught):
     counts = Counter()
-    with engines.Console() as console:
+    with caught() as console:
         assert oracles.compare(4_000, 1, console, counts) == []
     assert counts["ticks"] == 4_000
     assert counts["trees with parallel nodes"] > 30
     assert min(counts[f"{name}: halted"] for name in ("py_trees", "BehaviorTree.CPP")) > 500
 
 
-def test_the_comparison_notices_nodes_that_remember(oracles, engines, monkeypatch):
+def test_the_comparison_notices_nodes_that_remember(oracles, caught, monkeypatch):
     counts = Counter()
     forgetful = btcpp.dumps
     monkeypatch.setattr(btcpp, "dumps", lambda tree: forgetful(tree).replace("ReactiveSequence>", "Sequence>"))
     monkeypatch.setitem(btcpp.CONTROL, "Sequence", "→")
-    with engines.Console() as console:
+    with caught() as console:
         assert oracles.compare(1_000, 1, console, counts)
     assert counts["BehaviorTree.CPP: order differs"] > 50
     assert counts["py_trees: order differs"] == 0
@@ -64,11 +69,11 @@ def test_the_comparison_notices_nodes_that_remember(oracles, engines, monkeypatc
 
 @settings(max_examples=60, deadline=None)
 @given(data=st.data())
-def test_trees_with_any_names_load_and_tick_alike(data, any_trees, engines):
+def test_trees_with_any_names_load_and_tick_alike(data, any_trees, engines, caught):
     tree = data.draw(any_trees)
     answers = [[data.draw(st.sampled_from(_answers(leaf))) for leaf in leaves(tree)] for _ in range(3)]
     fresh = engines.has_parallel(tree)
-    with engines.Console() as console:
+    with caught() as console:
         cpp, mine = engines.BehaviorTreeCpp(tree, console), engines.Ours(tree, forgets=fresh)
         assert [cpp.tick(row) for row in answers] == [mine.tick(row) for row in answers]
     py_tree, mine = engines.PyTrees(tree), engines.Ours(tree)

@@ -17,7 +17,7 @@ import shlex
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import cast
 
@@ -94,15 +94,18 @@ class Terminal:
         """What a command prints."""
         if line == "echo $?":
             return f"{self.code}\n"
+        shown, aside = self.run(line)
+        went_well = self.code == 0 or (line.startswith("grammarbt ") and self.code == ANSWERS_NO)
+        return shown if went_well else shown + aside
+
+    def run(self, line: str) -> tuple[str, str]:
+        """What a command writes to standard output and to standard error; its exit code is kept."""
         if line.startswith("pip install "):
-            return self._install(line)
+            return self._install(line), ""
         program = line.partition(" ")[0]
         if program not in PROGRAMS:
             raise ValueError(f"pages type {PROGRAMS} only, not {program!r}")
-        here = program == "grammarbt" and self.site is None
-        shown, aside = self._own(line) if here else self._other(line)
-        went_well = self.code == 0 or (program == "grammarbt" and self.code == ANSWERS_NO)
-        return shown if went_well else shown + aside
+        return self._own(line) if program == "grammarbt" and self.site is None else self._other(line)
 
     def _write(self, block: Block) -> None:
         path = self.folder / block.name.removesuffix(_AT_THE_END)
@@ -124,10 +127,14 @@ class Terminal:
 
     def _other(self, line: str) -> tuple[str, str]:
         path = os.pathsep.join((str(Path(sys.executable).parent), os.environ["PATH"]))
+        return self.in_shell(line, os.environ | {"PATH": path, "PYTHONPATH": str(self.site or "")})
+
+    def in_shell(self, line: str, environment: Mapping[str, str]) -> tuple[str, str]:
+        """As `run`, in a process of its own."""
         done = subprocess.run(
             ["bash", "-c", line],  # noqa: S607 - the reader's own
             cwd=self.folder,
-            env=os.environ | {"PATH": path, "PYTHONPATH": str(self.site or "")},
+            env=environment,
             check=False,
             capture_output=True,
             text=True,

@@ -34,6 +34,49 @@ def test_the_savings_of_common_worlds_are_what_the_benchmark_prints():
     assert on_page == measured
 
 
+def recorded():
+    """What is on record for the marine default: searcher, episodes, seeds, complete, mean, interval, worst."""
+    found = rows("../benchmarks/results/marine.md", 8)
+    return [[searcher.strip("`"), *figures] for searcher, preset, *figures in found if preset == "default"]
+
+
+def test_marine_figures_in_the_readme_are_those_on_record():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    shown = [re.split(r"  +", line) for line in re.findall(r"^ {4}(\w+ +\d+–\d+ .* – .*)$", text, re.MULTILINE)]
+    record = [[searcher, seeds, episodes, *figures] for searcher, episodes, seeds, *figures in recorded()]
+    assert shown
+    assert [row for row in shown if row not in without_grouping(record)] == []
+
+
+def without_grouping(record):
+    """As commands print figures: no comma, and a zero before the point."""
+    return [[re.sub(r"(?<!\d)\.", "0.", cell.replace(",", "")) for cell in row] for row in record]
+
+
+def test_marine_figures_of_the_default_searchers_are_those_on_record():
+    shown = [[cells[0].strip("`"), *cells[1:]] for cells in rows("explanation/dagmcts.md", 6) if cells[0][0] == "`"]
+    record = [[searcher, episodes, *figures] for searcher, episodes, _, *figures in recorded()]
+    assert shown
+    assert [row for row in shown if row not in record] == []
+
+
+def test_marine_figures_beside_the_paper_s_are_those_on_record():
+    (_, *budgets, _), _, *shown = rows("explanation/method.md", 5)
+    record = {(searcher, episodes, mean, complete) for searcher, episodes, _, complete, mean, *_ in recorded()}
+    for searcher, *means, complete in shown:
+        for budget, mean in zip(budgets, means, strict=True):
+            known = [row for row in record if row[:3] == (searcher.strip("`"), budget, mean)]
+            assert known or mean == "–", (searcher, budget)
+        assert complete in {row[3] for row in known} or complete == "–", searcher
+
+
+def test_times_of_tutorials_are_those_on_record():
+    record = {cells[0]: cells[2] for cells in rows("../benchmarks/results/tutorials.md", 6)}
+    text = (DOCS / "index.md").read_text(encoding="utf-8")
+    shown = dict(re.findall(r"\(tutorials/([\w-]+)\.md\).* \| (\d+) s \|$", text, re.MULTILINE))
+    assert shown == {path.stem: record[path.stem] for path in (DOCS / "tutorials").glob("*.md")}
+
+
 def test_the_table_of_a_compiled_tree_is_the_compiler_s():
     results = {-1: "SUCCESS", -2: "FAILURE", -3: "RUNNING"}
     entries = flatten(parse("?( (a) →( (b) [c] ) )")).entries

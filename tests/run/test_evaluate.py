@@ -73,6 +73,9 @@ def raises(_policy, _scenarios):
         (lambda p, s: Outcome(np.full(len(s), np.nan), np.zeros(p.occurrences, int)), "invalid", "finite"),
         (lambda p, s: Outcome(np.zeros(len(s) + 1), np.zeros(p.occurrences, int)), "invalid", "shape"),
         (lambda _, s: Outcome(np.zeros(len(s)), np.zeros(9, int)), "invalid", "ticks"),
+        (lambda p, s: Outcome(np.zeros(len(s)), np.full(p.occurrences, np.nan)), "invalid", "ticks"),
+        (lambda p, s: Outcome(np.zeros(len(s)), np.full(p.occurrences, None)), "invalid", "type object"),
+        (lambda p, s: Outcome(np.zeros(len(s), np.longdouble), np.zeros(p.occurrences, int)), "invalid", "type float"),
         (lambda _p, _s: 7.0, "invalid", "Outcome"),
     ],
 )

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grammarbt.errors import RunError
-from grammarbt.run.journal import Journal, read_journal
+from grammarbt.run.journal import Journal, encoded, read_journal
 
 floats = st.floats(allow_nan=False, allow_infinity=False)
 EVENTS = [{"event": "trial", "number": number} for number in range(5)]
@@ -19,7 +19,7 @@ events = st.lists(st.fixed_dictionaries({"event": st.text(), "returns": st.lists
 def write(path, *batches, **options):
     with closing(Journal.open(path, **options)) as journal:
         for batch in batches:
-            journal.append(batch)
+            journal.append(map(encoded, batch))
 
 
 @given(batches=st.lists(events, max_size=4))
@@ -119,9 +119,9 @@ def test_a_journal_that_may_not_be_written_is_an_error(path):
 def test_a_full_disk_is_an_error_and_what_was_written_before_stays(path):
     whole = path.read_bytes()
     with closing(Journal.open(path)) as journal, at_most(len(whole) + 70):
-        journal.append([*EVENTS, EVENTS[0]])
+        journal.append(map(encoded, [*EVENTS, EVENTS[0]]))
         with pytest.raises(RunError, match="free some space"):
-            journal.append(EVENTS)
+            journal.append(map(encoded, EVENTS))
     assert read_journal(path) == [*EVENTS, EVENTS[0]]
 
 

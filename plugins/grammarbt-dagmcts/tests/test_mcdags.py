@@ -5,6 +5,7 @@ import pytest
 from grammarbt.grammar import parse_tree
 from grammarbt.search import Evaluation, RootList
 from grammarbt_dagmcts.dag import ROOT, Dag
+from grammarbt_dagmcts.draws import Draws
 from grammarbt_dagmcts.mcdags import McdagsSearch
 from grammarbt_dagmcts.parameters import DagMctsParameters
 from grammarbt_dagmcts.rollout import RollOuts, least_steps
@@ -107,14 +108,14 @@ def test_only_forms_without_a_reward_count_as_unvisited(mcdags, answer):
         last = searching.last(roll_out)
         assert dag.rewards.visits[last] == 0 or dag.words[last]
         searching.learn(roll_out, answer(roll_out.proposal))
-        assert ROOT in dag.ancestors([last])
+        assert ROOT in dag.edges.ancestors([last])
 
 
 @pytest.mark.parametrize("longest", [0, 3, 40])
 def test_a_long_roll_out_is_finished_the_shortest_way(grammar, context, longest):
-    roll_outs = RollOuts(Dag(grammar), context().rng, longest)
+    roll_outs = RollOuts(Dag(grammar), Draws(context().rng), longest)
     lengths = [len(roll_outs.below((), 0).proposal.derivation) for _ in range(200)]
-    fewest = RollOuts(Dag(grammar), context(1).rng, 0)
+    fewest = RollOuts(Dag(grammar), Draws(context(1).rng), 0)
     shortest = min(len(fewest.below((), 0).proposal.derivation) for _ in range(5))
     assert min(lengths) >= shortest
     assert (max(lengths) == shortest) == (longest == 0)

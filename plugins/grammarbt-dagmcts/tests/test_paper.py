@@ -37,6 +37,16 @@ def test_edges_are_listed_from_both_their_ends(grown):
     assert sum(len(edges.children(node)) for node in range(len(grown.dag))) == len(edges)
 
 
+@pytest.mark.parametrize("settings", [{"preset": "paper", "restart_every": 0}, {"preset": "mcdags", "restarts": False}])
+def test_a_node_knows_its_children_that_are_open(search, settings):
+    dag = search(600, **settings)[0].strategy.search.dag
+    assert any(dag.closed)
+    for node in range(len(dag)):
+        edges, children = dag.open_below(node)
+        assert [*edges] == [edge for edge in dag.edges.below(node) if not dag.closed[dag.edges.child[edge]]]
+        assert [*children] == [dag.edges.child[edge] for edge in edges]
+
+
 def test_some_nodes_have_several_parents(grown):
     assert max(len(grown.dag.edges.parents(node)) for node in range(len(grown.dag))) > 1
 
@@ -66,7 +76,7 @@ def test_linked_forms_lie_within_k_inverse_productions(grammar):
     dag = Dag(grammar)
     node = dag.add(dag.spelling.text(descendant(grammar, 6)))
     dag.link_ancestors(node, 6, 10_000)
-    assert ROOT in dag.ancestors([node])
+    assert ROOT in dag.edges.ancestors([node])
     for other in range(len(dag)):
         assert other == node or dag.form(node) in _below(grammar, dag.form(other), 6)
 
@@ -85,7 +95,7 @@ def test_ancestors_further_than_k_stay_unlinked(grammar):
     node = dag.add(dag.spelling.text(descendant(grammar, 6)))
     dag.link_ancestors(node, 3, 10_000)
     assert len(dag) == 2
-    assert ROOT not in dag.ancestors([node])
+    assert ROOT not in dag.edges.ancestors([node])
 
 
 def _below(grammar, form, steps):

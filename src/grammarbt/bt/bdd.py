@@ -15,6 +15,10 @@ GraphNode: TypeAlias = tuple[str, int, int, int]
 """The leaf in notation, and the nodes that follow success, failure and running."""
 
 
+_LAST = chr(0x10FFFF)
+"""Comes after every condition, which begins with a parenthesis."""
+
+
 class TooLargeError(Exception):
     """The graph has grown past its limit; whoever asked for it takes a coarser one."""
 
@@ -34,32 +38,26 @@ class DecisionGraph:
         self._known: dict[GraphNode, int] = {}
         self._sorted: dict[tuple[str, int, int], int] = {}
 
-    def call(self, leaf: str, success: int, failure: int, running: int) -> int:
-        """The node that ticks `leaf`."""
-        node = (leaf, success, failure, running)
-        at = self._known.get(node)
-        return self._add(node) if at is None else at
+    def number(self, node: GraphNode) -> int:
+        """The number of a node; the same whenever it is asked for."""
+        new = len(self.nodes)
+        at = self._known.setdefault(node, new)
+        if at == new:
+            if new >= self._most_nodes:
+                raise TooLargeError
+            self.nodes.append(node)
+        return at
 
     def test(self, condition: str, true: int, false: int) -> int:
         """The node that behaves like `true` where the condition holds and like `false` where not."""
         if true == false:
             return true
-        in_true, in_false = self.tests.get(true), self.tests.get(false)
-        if (in_true is not None and in_true <= condition) or (in_false is not None and in_false <= condition):
-            return self._ordered(condition, true, false)
-        node = (condition, true, false, RUNNING)
-        at = self._known.get(node)
-        if at is None:
-            at = self._add(node)
-            self.tests[at] = condition
-        return at
-
-    def _add(self, node: GraphNode) -> int:
-        at = self._known[node] = len(self.nodes)
-        if at >= self._most_nodes:
-            raise TooLargeError
-        self.nodes.append(node)
-        return at
+        tests = self.tests
+        if condition < tests.get(true, _LAST) and condition < tests.get(false, _LAST):
+            at = self.number((condition, true, false, RUNNING))
+            tests[at] = condition
+            return at
+        return self._ordered(condition, true, false)
 
     def _ordered(self, condition: str, true: int, false: int) -> int:
         """A test where what follows asks conditions that come before it, or asks it again."""
@@ -70,17 +68,11 @@ class DecisionGraph:
         return at
 
     def _sort(self, condition: str, true: int, false: int) -> int:
-        first = min(condition, self.tests.get(true, condition), self.tests.get(false, condition))
-        true_high, true_low = self._answers(first, true)
-        false_high, false_low = self._answers(first, false)
+        in_true, in_false = self.tests.get(true, _LAST), self.tests.get(false, _LAST)
+        first = min(condition, in_true, in_false)
+        true_high, true_low = self.nodes[true][1:3] if in_true == first else (true, true)
+        false_high, false_low = self.nodes[false][1:3] if in_false == first else (false, false)
         if first == condition:
             return self.test(condition, true_high, false_low)
         high = self.test(condition, true_high, false_high)
         return self.test(first, high, self.test(condition, true_low, false_low))
-
-    def _answers(self, condition: str, node: int) -> tuple[int, int]:
-        """Where a node leads when the condition holds, and where when not."""
-        if self.tests.get(node) != condition:
-            return node, node
-        _, true, false, _ = self.nodes[node]
-        return true, false

@@ -77,17 +77,18 @@ class GraphBuilder:
         """The node at which a tick of the tree starts."""
         steps = compile_steps(tree)
         nodes = [0] * len(steps.steps) + [RUNNING, FAILURE, SUCCESS]  # at -3, -2 and -1, as steps name the ends
-        call, test, is_pure, pure = self.graph.call, self.graph.test, self._is_pure, self._pure
+        number, test, is_pure, pure = self.graph.number, self.graph.test, self._is_pure, self._pure
         for at, (leaf, _, success, failure, running) in enumerate(steps.steps):
+            text = leaf.text
             if isinstance(leaf, Action):
-                nodes[at] = call(leaf.text, nodes[success], nodes[failure], nodes[running])
+                nodes[at] = number((text, nodes[success], nodes[failure], nodes[running]))
             elif is_pure(leaf):
-                pure.add(leaf.text)
+                pure.add(text)
                 if len(pure) > MAX_CONDITIONS:
                     raise TooLargeError
-                nodes[at] = test(leaf.text, nodes[success], nodes[failure])
+                nodes[at] = test(text, nodes[success], nodes[failure])
             else:
-                nodes[at] = call(leaf.text, nodes[success], nodes[failure], RUNNING)
+                nodes[at] = number((text, nodes[success], nodes[failure], RUNNING))
         return nodes[steps.first]
 
 
@@ -98,14 +99,15 @@ def _serialise(nodes: list[GraphNode], start: int) -> bytes:
     stack = [start]
     while stack:
         at = stack.pop()
-        if at in names:
-            lines.append(names[at])
-            continue
-        names[at] = str(len(names))
-        text, success, failure, running = nodes[at]
-        lines.append(text)
-        stack += (failure, success)
-        if running != RUNNING:
-            lines.append("+")
-            stack.append(running)
+        while at not in names:
+            names[at] = str(len(names))
+            text, success, failure, running = nodes[at]
+            lines.append(text)
+            stack.append(failure)
+            at = success
+            if running != RUNNING:
+                lines.append("+")
+                stack.append(success)
+                at = running
+        lines.append(names[at])
     return "\n".join(lines).encode()

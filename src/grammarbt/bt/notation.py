@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from reprlib import repr as shortened
-from typing import TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from attrs import frozen
 
@@ -20,6 +20,7 @@ from grammarbt.bt.model import (
     Arguments,
     BehaviorTree,
     Condition,
+    Control,
     Fallback,
     Leaf,
     Node,
@@ -29,10 +30,12 @@ from grammarbt.bt.model import (
 )
 from grammarbt.errors import NotationError
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
 _OPERATOR = re.compile(r"\?|→|->|!|(?:‖|\|\|)(\d+)")
 _LOOKS_LIKE_OPERATOR = re.compile(r"\?|→|->|!|(?:‖|\|\|)\d")
 _SIGNS: dict[type, str] = {Fallback: "?", Sequence: "→", Not: "!"}
-_LEAF = (Action, Condition)
 _EXCERPT = 24
 
 
@@ -50,19 +53,33 @@ def parse(text: str) -> BehaviorTree:
 
 def format_tree(tree: BehaviorTree) -> str:
     """Write a tree on one line; `parse` reads back the same tree."""
-    if isinstance(tree, _LEAF):
-        return tree.text
-    if isinstance(tree, Not):
-        child = format_tree(tree.child)
-        plain = isinstance(tree.child, Condition) and not _LOOKS_LIKE_OPERATOR.match(tree.child.name)
-        return f"!{child}" if plain else f"!({child})"
-    inside = " ".join([child.text if isinstance(child, _LEAF) else format_tree(child) for child in tree.children])
-    return f"{operator(tree)}( {inside} )"
+    return _WAYS[type(tree)](tree)
 
 
 def format_leaf(leaf: Leaf) -> str:
     """Write a leaf: `[name]`, `(name)`, or with arguments `[name(key=value)]`."""
     return leaf.text
+
+
+def _format_control(node: Control) -> str:
+    inside = " ".join([_WAYS[type(child)](child) for child in node.children])
+    return f"{_SIGNS.get(type(node)) or operator(node)}( {inside} )"
+
+
+def _format_not(node: Not) -> str:
+    child = format_tree(node.child)
+    plain = isinstance(node.child, Condition) and not _LOOKS_LIKE_OPERATOR.match(node.child.name)
+    return f"!{child}" if plain else f"!({child})"
+
+
+_WAYS: Mapping[type[Node], Callable[[Any], str]] = {
+    Action: format_leaf,
+    Condition: format_leaf,
+    Fallback: _format_control,
+    Sequence: _format_control,
+    Parallel: _format_control,
+    Not: _format_not,
+}
 
 
 def read_leaf(text: str, kind: type[Action | Condition]) -> Leaf:

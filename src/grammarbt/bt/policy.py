@@ -7,6 +7,7 @@ associativity, single children or double negation compile to the same policy.
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -54,25 +55,51 @@ class FlatTree:
     occurrences: int
 
 
-@frozen(eq=False)
+@frozen(eq=False, slots=False)  # slots=False: cached_property keeps its value in the instance's dict
 class Policy:
     """A compiled tree over a domain's numbered leaves, as arrays of equal length that compiled simulators read.
 
+    The arrays are made when the first of them is asked for: a simulator in Python ticks the tree without them.
+
     Attributes:
-        leaf: index into `Vocabulary.leaves`, per entry.
-        occurrence: place of the leaf in the tree, per entry; ticks are counted by it.
-        on_success, on_failure, on_running: next entry, or SUCCESS (-1), FAILURE (-2), RUNNING (-3).
         occurrences: leaves of the tree.
         tree: what was compiled.
     """
 
-    leaf: IntArray
-    occurrence: IntArray
-    on_success: IntArray
-    on_failure: IntArray
-    on_running: IntArray
     occurrences: int
     tree: BehaviorTree = field(repr=False)
+    _steps: Steps = field(repr=False)
+    _numbers: list[int] = field(repr=False)
+
+    @property
+    def leaf(self) -> IntArray:
+        """Index into `Vocabulary.leaves`, per entry."""
+        return self._columns[0]
+
+    @property
+    def occurrence(self) -> IntArray:
+        """Place of the leaf in the tree, per entry; ticks are counted by it."""
+        return self._columns[1]
+
+    @property
+    def on_success(self) -> IntArray:
+        """Next entry after success, or SUCCESS (-1), FAILURE (-2), RUNNING (-3)."""
+        return self._columns[2]
+
+    @property
+    def on_failure(self) -> IntArray:
+        """The same after failure."""
+        return self._columns[3]
+
+    @property
+    def on_running(self) -> IntArray:
+        """The same after running."""
+        return self._columns[4]
+
+    @cached_property
+    def _columns(self) -> tuple[IntArray, ...]:
+        _, *columns = zip(*_rows(self._steps), strict=True)
+        return tuple(np.array([self._numbers[::-1], *columns], dtype=np.int32))
 
 
 def flatten(tree: BehaviorTree) -> FlatTree:
@@ -92,13 +119,11 @@ def compile_policy(tree: BehaviorTree, index: Mapping[Leaf, int]) -> Policy:
         DomainError: the tree uses a leaf that the domain does not have, or as `flatten`.
     """
     steps = compile_steps(tree)
-    names, *columns = zip(*_rows(steps), strict=True)
     try:
-        numbers = [index[leaf] for leaf in names]
+        numbers = [index[step[0]] for step in steps.steps]
     except KeyError:
         raise _unknown(tree, index) from None
-    leaf, occurrence, on_success, on_failure, on_running = np.array([numbers, *columns], dtype=np.int32)
-    return Policy(leaf, occurrence, on_success, on_failure, on_running, steps.occurrences, tree)
+    return Policy(steps.occurrences, tree, steps, numbers)
 
 
 def tick(flat: FlatTree, answer: Callable[[Leaf, int], Status]) -> Status:

@@ -40,9 +40,8 @@ class Display(Watcher):
     def __init__(self, host: PluginHost) -> None:
         self._host = host
         self.name, self.total, self.done = "", 0, 0
-        self.best = ""
+        self.latest: TrialFinished | None = None
         self.steps: list[tuple[int, float]] = []
-        self.episodes = 0
         self.path = Path()
         self.started = time.monotonic()
 
@@ -57,8 +56,7 @@ class Display(Watcher):
     def notify(self, event: RunEvent) -> None:
         """Remember the best tree; tell the plugins."""
         if isinstance(event, TrialFinished) and event.best_tree:
-            self.best = f"best {event.best:.5g}  {event.best_tree}"
-            self.episodes = event.episodes
+            self.latest = event
             if not self.steps or self.steps[-1][1] != event.best:
                 self.steps.append((event.episodes, event.best))
         self._host.notify(event)
@@ -71,6 +69,11 @@ class Display(Watcher):
     def advance(self, episodes: int) -> None:
         """Count."""
         self.done += episodes
+
+    @property
+    def best(self) -> str:
+        """The best tree so far, if there is one."""
+        return f"best {self.latest.best:.5g}  {self.latest.best_tree}" if self.latest else ""
 
     @property
     def rate(self) -> float:
@@ -126,7 +129,7 @@ class LiveDisplay(Display):
 
     def _render(self) -> Group:
         self._bar.update(self._task, completed=self.done, rate=f"{self.rate:,.0f}")
-        curve = Text(course(self.steps, self.episodes, _CURVE))
+        curve = Text(course(self.steps, self.latest.episodes if self.latest else 0, _CURVE))
         return Group(self._bar, curve, Text(self.best, overflow="ellipsis"))
 
 

@@ -7,11 +7,12 @@ from grammarbt.grammar.count import Count, Counter
 from grammarbt.grammar.diagnostics import Diagnostic, GrammarFileError, Source, Span
 from grammarbt.grammar.form import SententialForm
 from grammarbt.grammar.imports import bundled, read_source
+from grammarbt.grammar.independence import is_independent
 from grammarbt.grammar.leftmost import Word
 from grammarbt.grammar.model import Grammar, load_grammar, read_grammar
 from grammarbt.grammar.parse import NotInLanguageError, parse_tree
 from grammarbt.grammar.paths import InfiniteLanguageError, TooLargeError
-from grammarbt.grammar.pieces import Piece, Pieces, is_independent
+from grammarbt.grammar.pieces import Piece, Pieces
 from grammarbt.grammar.shipped import shipped_grammars
 from grammarbt.grammar.spelling import Spelling
 from grammarbt.grammar.table import Derivation, Production

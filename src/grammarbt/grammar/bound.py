@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 from attrs import evolve, frozen
 
-from grammarbt.bt.model import MAX_DEPTH, Action, BehaviorTree, Condition, Fallback, Node, Not, Parallel, Sequence
-from grammarbt.bt.notation import OperatorToken
+from grammarbt.bt.model import MAX_DEPTH, BehaviorTree, Fallback, Node, Not, Parallel, Sequence
+from grammarbt.bt.notation import BracketToken, OperatorToken, Token
 from grammarbt.errors import GrammarError
 from grammarbt.grammar.form import SententialForm
 from grammarbt.grammar.leftmost import Leftmost, Word
@@ -85,14 +85,21 @@ class BoundGrammar(ProductionTable):
         Raises:
             GrammarError: it is deeper than trees can be.
         """
+        return self.row_of(map(self.terminals.__getitem__, word))[0]
+
+    def row_of(self, tokens: Iterable[Token | Node]) -> tuple[Node, ...]:
+        """The behavior trees that a row of tokens spells one after the other; some tokens may be sub-trees already.
+
+        Raises:
+            GrammarError: more parentheses are open at once than trees have levels.
+        """
         stack: list[list[Node]] = [[]]
         signs: list[str] = []
-        for symbol in word:
-            token = self.terminals[symbol]
-            if isinstance(token, Action | Condition):
-                stack[-1].append(token)
-            elif isinstance(token, OperatorToken):
+        for token in tokens:
+            if isinstance(token, OperatorToken):
                 signs.append(token.sign)
+            elif not isinstance(token, BracketToken):
+                stack[-1].append(token)
             elif token.sign == "(":
                 stack.append([])
                 if len(stack) > MAX_DEPTH:
@@ -100,7 +107,7 @@ class BoundGrammar(ProductionTable):
             else:
                 children = tuple(stack.pop())
                 stack[-1].append(_node(signs.pop(), children))
-        return stack[0][0]
+        return tuple(stack[0])
 
     def _too_deep(self) -> GrammarError:
         message = f"{self.grammar.source.name}: a tree is deeper than {MAX_DEPTH} levels"
@@ -143,7 +150,13 @@ class BoundGrammar(ProductionTable):
 
     def base_derivation(self, derivation: Derivation) -> Derivation:
         """The derivation with every extra production replaced by the steps it stands for."""
+        if not self._has_extra:
+            return derivation
         return tuple(step for number in derivation for step in (self.productions[number].base or (number,)))
+
+    @cached_property
+    def _has_extra(self) -> bool:
+        return any(production.base for production in self.productions)
 
     def _used_by(self, steps: list[Production]) -> tuple[tuple[int, ...], tuple[int, ...]]:
         use = [0] * len(self.costs.constraints)

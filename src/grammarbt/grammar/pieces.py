@@ -6,10 +6,11 @@ then follows from that scope alone. Forms differ in many ways, their pieces in f
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import TypeAlias
+
 from attrs import define, field
 
-from grammarbt.grammar.bound import BoundGrammar
-from grammarbt.grammar.reach import reachable
 from grammarbt.grammar.spelling import CLOSED, Spelling
 
 MAX_KEPT = 200_000
@@ -24,6 +25,10 @@ class Piece:
     places: list[int] = field(factory=list)
 
 
+_Apart: TypeAlias = tuple[list[Piece], str, int]
+"""Pieces, what is left around them, and how many nonterminals there are in all."""
+
+
 class Pieces:
     """Takes forms apart, and knows what is legal in their pieces.
 
@@ -35,37 +40,55 @@ class Pieces:
     def __init__(self, spelling: Spelling) -> None:
         grammar = spelling.grammar
         self.spelling = spelling
-        self.independent = frozenset(
-            spelling.text(grammar.start(symbol)) for symbol in grammar.by_lhs if is_independent(grammar, symbol)
-        )
+        self.independent = spelling.independent
         # Where depth is limited, it is counted by the parentheses that are still to be closed.
         kept = [symbol for symbol in grammar.brackets if grammar.depth_constraints and symbol >= 0]
-        self._bare = {symbol + 1: None for symbol in range(len(grammar.terminals)) if symbol not in kept}
+        self._first_nonterminal = chr(grammar.start_symbol + 1)
         self._parentheses = "".join(chr(symbol + 1) for symbol in kept)
         self._legal: dict[tuple[str, int], tuple[int, ...]] = {}
+        self._options: dict[str, list[tuple[int, int]]] = {}
+        self._scopes: dict[str, _Apart] = {}
 
     def split(self, text: str) -> list[Piece]:
         """The pieces that have something left to derive."""
-        found: list[Piece] = []
-        around: list[Piece] = []
-        piece, place = Piece(), 0
-        for character in text.translate(self._bare):
-            if character >= self.spelling.first_scope:
-                around.append(piece)
-                piece = Piece(character)
-            elif character == CLOSED:
-                piece = self._closed(piece, around.pop(), found)
-            elif ord(character) <= self.spelling.grammar.start_symbol:
-                piece.text += character
-            else:
-                self._place(character, place, piece, found)
-                place += 1
-        if piece.places:
-            found.append(piece)
+        found, _, _ = self._apart(self.spelling.tokens(text))
         for piece in found:
             while self._parentheses and self._parentheses in piece.text:
                 piece.text = piece.text.replace(self._parentheses, "")
         return found
+
+    def _apart(self, tokens: Iterable[str]) -> _Apart:
+        found: list[Piece] = []
+        around: list[Piece] = []
+        piece, place = Piece(), 0
+        for token in tokens:
+            if len(token) > 1:
+                inside, rest, nonterminals = self._scope_apart(token)
+                found += [Piece(own.text, [place + inner for inner in own.places]) for own in inside]
+                piece.text += rest
+                place += nonterminals
+            elif CLOSED < token < self._first_nonterminal:
+                if token in self._parentheses:
+                    piece.text += token
+            elif token >= self.spelling.first_scope:
+                around.append(piece)
+                piece = Piece(token)
+            elif token == CLOSED:
+                piece = self._closed(piece, around.pop(), found)
+            else:
+                self._place(token, place, piece, found)
+                place += 1
+        if piece.places:
+            found.append(piece)
+        return found, piece.text, place
+
+    def _scope_apart(self, scope: str) -> _Apart:
+        known = self._scopes.get(scope)
+        if known is None:
+            if len(self._scopes) >= MAX_KEPT:
+                self._scopes.clear()
+            known = self._scopes[scope] = self._apart([*scope])
+        return known
 
     def _closed(self, piece: Piece, around: Piece, found: list[Piece]) -> Piece:
         """What is around a scope that closes: the scope is a piece, or part of the piece around it, or done with."""
@@ -105,23 +128,21 @@ class Pieces:
 
     def options(self, text: str) -> list[tuple[int, int]]:
         """What may be done to a form: the place of a nonterminal among them, and a production; by place."""
-        found = [
-            (place, production)
+        return sorted(
+            (piece.places[at], production)
             for piece in self.split(text)
-            for place, at in zip(piece.places, self.spelling.positions(piece.text), strict=True)
-            for production in self.legal(piece.text, at)
-        ]
-        return sorted(found)
+            for at, production in self._options_of(piece.text)
+        )
 
-
-def is_independent(grammar: BoundGrammar, nonterminal: int) -> bool:
-    """Whether what the nonterminal derives has no say in what may stand around it."""
-    around = grammar.encloses_of(nonterminal)
-
-    def parts(symbol: int) -> list[int]:
-        return [part for production in grammar.by_lhs.get(symbol, ()) for part in grammar.parts[production.number]]
-
-    below = (production for symbol in reachable(nonterminal, parts) for production in grammar.by_lhs.get(symbol, ()))
-    if any(production.use[constraint] for production in below for constraint in around):
-        return False
-    return not around & grammar.depth_constraints
+    def _options_of(self, text: str) -> list[tuple[int, int]]:
+        """The same of a piece, by the place in it."""
+        known = self._options.get(text)
+        if known is None:
+            if len(self._options) >= MAX_KEPT:
+                self._options.clear()
+            known = self._options[text] = [
+                (place, production)
+                for place, at in enumerate(self.spelling.positions(text))
+                for production in self.legal(text, at)
+            ]
+        return known

@@ -16,6 +16,7 @@ from grammarbt.errors import GrammarError
 from grammarbt.grammar.adjacency import EDGE, adjacent
 from grammarbt.grammar.bound import BoundGrammar
 from grammarbt.grammar.form import SententialForm
+from grammarbt.grammar.independence import is_independent
 from grammarbt.grammar.table import CLOSE, Production
 
 CLOSED = chr(0)
@@ -23,6 +24,9 @@ CLOSED = chr(0)
 
 REMEMBERED = 256
 """Forms whose parents are kept; a search for ancestors looks at some of them more than once."""
+
+MAX_SCOPES = 200_000
+"""Independent scopes of which the parents are kept."""
 
 Above: TypeAlias = tuple[str, int, int]
 """A form, a production, and the place in the form where it is applied."""
@@ -36,6 +40,7 @@ class Spelling:
     Attributes:
         grammar: the language.
         first_scope: the lowest character that opens a scope; all from there on do.
+        independent: the characters of independent nonterminals.
         parents: the forms that become a form by one production, left to right, but for some that no derivation from the
             start symbol leads to.
     """
@@ -43,6 +48,14 @@ class Spelling:
     def __init__(self, grammar: BoundGrammar) -> None:
         self.grammar = grammar
         self.first_scope = self._character(len(grammar.terminals) + len(grammar.names))
+        self.independent = frozenset(
+            self._character(symbol) for symbol in grammar.by_lhs if is_independent(grammar, symbol)
+        )
+        self._sealed: set[str] = set()
+        self._all_sealed = True
+        scopes = f"{re.escape(self.first_scope)}-{chr(sys.maxunicode)}"
+        self._innermost = re.compile(f"[{scopes}][^{CLOSED}{scopes}]*{CLOSED}|.", re.DOTALL)
+        self._inside: dict[str, tuple[Above, ...]] = {}
         self._scopes: list[tuple[int, tuple[int, ...]]] = []
         self._known: dict[tuple[int, tuple[int, ...]], str] = {}
         self._unused: dict[str, str] = {}
@@ -85,6 +98,17 @@ class Spelling:
         """Where the nonterminals stand, left to right."""
         return [match.start() for match in self._nonterminals.finditer(text)]
 
+    def place(self, text: str, at: int) -> int:
+        """How many nonterminals stand before a position."""
+        return len(self._nonterminals.findall(text, 0, at))
+
+    def tokens(self, text: str) -> list[str]:
+        """The characters of a form; those of an independent scope that has no other inside are one token."""
+        found: list[str] = self._innermost.findall(text)
+        if self._all_sealed:
+            return found
+        return [own for token in found for own in ((token,) if token[0] in self._sealed else token)]
+
     def _character(self, symbol: int) -> str:
         return chr(symbol + 1)
 
@@ -102,6 +126,10 @@ class Spelling:
                 )
             known = self._known[scope] = chr(number)
             self._scopes.append(scope)
+            if self._character(self.grammar.opened_by(marker)) in self.independent:
+                self._sealed.add(known)
+            else:
+                self._all_sealed = False
             self._unused[known] = self._scope(marker, (0,) * len(used)) if any(used) else known
         return known
 
@@ -148,7 +176,10 @@ class Spelling:
                 after = charge(head[at], production)
                 if after is None:
                     return None
+                sealed = head[at] in self._sealed
                 head = head[:at] + after + head[at + 1 :]
+                if sealed:  # what is around does not count what is inside
+                    break
         return head
 
     def _spend(self, scope: str, production: int) -> str | None:
@@ -174,14 +205,39 @@ class Spelling:
 
     def _parents(self, text: str) -> tuple[Above, ...]:
         found: list[Above] = []
-        for at, character in enumerate((*text, "")):
-            for row, lhs, production in self._by_first.get(character, self._empty):
-                end = at + len(row)
-                if text.startswith(row, at) and self._may_stand(text[at - 1 : at], lhs, text[end : end + 1]):
-                    head = self._charged(text[:at], production, self._regain)
-                    if head is not None:
-                        found.append((head + lhs + text[end:], production, at))
+        at, starts, vanishing = 0, self._by_first, bool(self._empty)
+        for token in self.tokens(text):
+            if token[0] in starts or vanishing:
+                found += self._parents_at(text, at)
+            if len(token) > 1:
+                before, after = text[:at], text[at + len(token) :]
+                found += [(before + above + after, number, at + own) for above, number, own in self._within(token)]
+            at += len(token)
+        if vanishing:
+            found += self._parents_at(text, at)
         return tuple(found)
+
+    def _parents_at(self, text: str, at: int) -> list[Above]:
+        """Those by a production at one place."""
+        found: list[Above] = []
+        for row, lhs, production in self._by_first.get(text[at : at + 1], self._empty):
+            end = at + len(row)
+            if text.startswith(row, at) and self._may_stand(text[at - 1 : at], lhs, text[end : end + 1]):
+                head = self._charged(text[:at], production, self._regain)
+                if head is not None:
+                    found.append((head + lhs + text[end:], production, at))
+        return found
+
+    def _within(self, scope: str) -> tuple[Above, ...]:
+        """What an independent scope may have been before a production inside it, the same wherever it stands."""
+        known = self._inside.get(scope)
+        if known is None:
+            if len(self._inside) >= MAX_SCOPES:
+                self._inside.clear()
+            known = self._inside[scope] = tuple(
+                above for at in range(1, len(scope)) for above in self._parents_at(scope, at)
+            )
+        return known
 
     def _may_stand(self, before: str, symbol: str, after: str) -> bool:
         before, after = self._unused.get(before, before), self._unused.get(after, after)

@@ -88,6 +88,11 @@ class ProductionTable:
         return tuple(tuple(filter(self.is_nonterminal, production.rhs)) for production in self.productions)
 
     @cached_property
+    def growth(self) -> tuple[int, ...]:
+        """Per production, how many more nonterminals there are after it than before."""
+        return tuple(len(parts) - 1 for parts in self.parts)
+
+    @cached_property
     def start_symbol(self) -> int:
         """The number of the nonterminal that every tree begins with."""
         return len(self.terminals)

@@ -31,8 +31,8 @@ class Known:
 
     def learn(self, scenarios: Sequence[int], returns: Sequence[float]) -> None:
         """Add the returns of scenarios that were not known."""
-        self.returns.update(zip(scenarios, returns, strict=True))
-        for value in returns:
+        for scenario, value in zip(scenarios, returns, strict=True):
+            self.returns[scenario] = value
             self.total += value
 
     @property

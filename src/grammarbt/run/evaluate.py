@@ -8,7 +8,7 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 import numpy as np
-from attrs import define, field, frozen
+from attrs import define, frozen
 
 from grammarbt.bt import BehaviorTree, format_tree
 from grammarbt.bt.canonical import canonical_key
@@ -28,7 +28,7 @@ _DIGEST = 16
 """Bytes of a key; two different trees among 10^12 share one with a probability below 10^-14."""
 
 
-_NOTHING = Simulation()
+_NOTHING, _UNKNOWN = Simulation(), Known()
 _RECENT = 1_024
 """Trees whose keys are kept: a race asks for the same trees again and again."""
 
@@ -71,7 +71,7 @@ class Task:
     proposal: Proposal
     text: str
     key: bytes
-    known: Known = field(factory=Known)
+    known: Known = _UNKNOWN
     missing: Sequence[int] = ()
     simulation: Simulation | None = None
     trial: Trial | None = None
@@ -175,7 +175,8 @@ class Evaluator:
             for task in wave:
                 task.simulation = self.replay.take(task.proposal, task.text, task.missing)
         jobs = [task for task in wave if task.simulation is None and task.missing]
-        fresh = self._simulator.simulate([(task.proposal.tree, self._numbers(task.missing)) for task in jobs])
+        simulations = self._simulator.simulate([(task.proposal.tree, self._numbers(task.missing)) for task in jobs])
+        fresh = iter([*simulations])  # all first: what is done in a row still finds the processor's caches warm
         for task in wave:
             self.episodes += len(task.missing)
             task.finish(task.simulation or (next(fresh) if task.missing else _NOTHING))

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 Event: TypeAlias = "Mapping[str, object]"
 
 _TAIL = len(',"crc":"00000000"}\n')
-_encode = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode
+encoded = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode
+"""An event as it stands in a journal, without the CRC."""
 
 
 @frozen
@@ -95,13 +96,17 @@ class Journal:
         """Whether nothing new has been written yet to a journal that held events."""
         return self._old is not None
 
-    def append(self, events: Iterable[Event]) -> None:
+    def append(self, events: Iterable[str]) -> None:
         """Write events at once, so that they outlive the process; or see that they stand there already.
+
+        Args:
+            events: each as `encoded` gives it.
 
         Raises:
             RunError: the disk is full, the folder has gone, or another event stands there.
         """
-        fresh = b"".join([line for line in map(self._line, events) if not self._repeats(line)])
+        lines = map(self._line, events)
+        fresh = b"".join([line for line in lines if not self._repeats(line)] if self.repeating else lines)
         if fresh:
             self._write(fresh)
 
@@ -109,13 +114,13 @@ class Journal:
         """Close the file, which unlocks it."""
         self._file.close()
 
-    def _line(self, event: Event) -> bytes:
-        body = _encode(event)[:-1].encode()
+    def _line(self, event: str) -> bytes:
+        body = event[:-1].encode()
+        self._events += 1
         self._crc = crc32(body, self._crc)
         return body + _tail(self._crc)
 
     def _repeats(self, line: bytes) -> bool:
-        self._events += 1
         if self._old is None:
             return False
         old = next(self._old, None)

@@ -23,7 +23,7 @@ Answer = TypeVar("Answer")
 MAX_FAILURES = 25
 """Trials that may fail one after the other."""
 
-_NODE = (Action, Condition, Fallback, SequenceNode, Parallel, Not)
+_NODE = (Fallback, SequenceNode, Parallel, Not, Action, Condition)
 
 
 class Follower(Protocol):
@@ -108,7 +108,10 @@ class AskTellLoop:
     def _check_failures(self, trials: Sequence[Trial]) -> None:
         """A run that goes on may try as often again: its simulator may have been repaired meanwhile."""
         for trial in trials:
-            self._failures = [*self._failures, trial] if trial.evaluation.status != "ok" else []
+            if trial.evaluation.status == "ok":
+                self._failures.clear()
+                continue
+            self._failures.append(trial)
             if len(self._failures) >= MAX_FAILURES:
                 first = self._failures[0]
                 raise RunError(

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 _NUMBERS = "fiub"
 """Kinds of arrays that hold real numbers."""
 
+_WIDEST = 8
+"""Bytes of the widest numbers that Python has too."""
+
 
 @frozen
 class Simulation:
@@ -57,10 +60,12 @@ def simulate(domain: Domain, policy: Policy, scenarios: Scenarios) -> Simulation
     fault = _fault(outcome, policy, scenarios)
     if fault:
         return Simulation(status="invalid", error=fault)
-    returns = tuple(outcome.returns.tolist())
+    returns, ticks = tuple(outcome.returns.tolist()), tuple(outcome.ticks.tolist())
     if not all(map(isfinite, returns)):
         return Simulation(status="invalid", error="simulate gave a return that is not a finite number")
-    return Simulation(returns, tuple(outcome.ticks.tolist()))
+    if not all(map(isfinite, ticks)):
+        return Simulation(status="invalid", error="simulate gave a number of ticks that is not finite")
+    return Simulation(returns, ticks)
 
 
 def _fault(outcome: object, policy: Policy, scenarios: Scenarios) -> str:
@@ -72,6 +77,7 @@ def _fault(outcome: object, policy: Policy, scenarios: Scenarios) -> str:
         return f"simulate gave returns of shape {returns.shape} for {len(scenarios)} scenarios"
     if ticks.shape != (policy.occurrences,):
         return f"simulate gave ticks of shape {ticks.shape} for {policy.occurrences} leaves"
-    if returns.dtype.kind not in _NUMBERS:
-        return f"simulate gave returns of type {returns.dtype} instead of numbers"
+    for name, array in (("returns", returns), ("ticks", ticks)):
+        if array.dtype.kind not in _NUMBERS or array.dtype.itemsize > _WIDEST:
+            return f"simulate gave {name} of type {array.dtype} instead of numbers"
     return ""

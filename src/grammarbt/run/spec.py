@@ -6,6 +6,7 @@ import json
 import re
 import tomllib
 from collections.abc import Mapping
+from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
@@ -116,7 +117,7 @@ class RunSpec:
         """Episodes of the budget that are kept for the final selection; at least one is left to search."""
         return min(round(self.budget * self.selection), self.budget - 1)
 
-    @property
+    @cached_property
     def search_episodes(self) -> int:
         """Episodes of the budget that the search may spend."""
         return self.budget - self.selection_episodes

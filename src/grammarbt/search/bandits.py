@@ -113,9 +113,13 @@ class Ucb1(_Ranged):
         """Mean + c · span · √(2 ln trials / pulls)."""
         return arm.mean + self.c * self.span * sqrt(2.0 * log(max(trials, 1)) / pulls)
 
+    def bonus(self, trials: int) -> tuple[float, float]:
+        """What the index consists of besides means and pulls, for all arms at once: c · span and 2 ln trials."""
+        return self.c * self.span, 2.0 * log(max(trials, 1))
+
     def most_urgent(self, arms: Sequence[Arm], trials: int) -> int:
         """As by the index, in one go: it is asked for at every step."""
-        scale, twice_log = self.c * self.span, 2.0 * log(max(trials, 1))
+        scale, twice_log = self.bonus(trials)
         urgencies = [arm.total / arm.visits + scale * sqrt(twice_log / arm.visits) for arm in arms]
         return urgencies.index(max(urgencies))
 

@@ -32,7 +32,7 @@ Behaviour = Callable[[BehaviorTree], object]
 """Equal for trees of which one is enough."""
 
 
-@frozen
+@frozen(cache_hash=True)
 class Piece:
     """A sub-tree of a block.
 
@@ -106,11 +106,13 @@ class BlockDag:
     def draw(self, rng: np.random.Generator, prefix: Derivation = ()) -> tuple[list[BlockNode], Piece]:
         """A word and the nodes on the way to it: along `prefix`, as far as it leads, and from there at random by weight."""
         path, derivation = self._follow(prefix)
-        while children := self._expanded(path[-1]):
-            production, node = _by_weight(rng, children, _bounds(path[-1], children))
+        node, random = path[-1], rng.random
+        while children := self._expanded(node) if node.children is None else node.children:
+            bounds = node.bounds or _bounds(node, children)
+            production, node, _ = children[bisect_right(bounds, random() * bounds[-1], 0, len(bounds) - 1)]
             path.append(node)
             derivation.append(production)
-        return path, self._piece(path[-1], derivation)
+        return path, node.piece or self._piece(node, derivation)
 
     def _follow(self, prefix: Derivation) -> tuple[list[BlockNode], list[int]]:
         path, derivation = [self.root], list[int]()
@@ -188,12 +190,6 @@ class BlockDag:
 
     def _tokens(self, form: SententialForm) -> int:
         return sum(not self.grammar.is_marker(symbol) for symbol in form.symbols)
-
-
-def _by_weight(
-    rng: np.random.Generator, children: Sequence[tuple[int, BlockNode, float]], bounds: Sequence[float]
-) -> tuple[int, BlockNode]:
-    return children[bisect_right(bounds, float(rng.random()) * bounds[-1], hi=len(bounds) - 1)][:2]
 
 
 def _bounds(node: BlockNode, children: Sequence[tuple[int, BlockNode, float]]) -> list[float]:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from attrs import define, field
-
 from grammarbt.errors import GrammarError
 from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
 
@@ -16,12 +14,6 @@ Template = tuple[int | None, ...]
 """A leftmost derivation in which None stands for a nonterminal that was left alone."""
 
 
-@define(eq=False)
-class _Open:
-    production: int | None = None
-    parts: list[_Open] = field(factory=list)
-
-
 def leftmost(grammar: BoundGrammar, steps: Iterable[Step]) -> Template:
     """The leftmost order of a derivation from one nonterminal, whose steps may come in any order."""
     turns = ((grammar.positions(form).index(position), production) for form, position, production in steps)
@@ -30,14 +22,15 @@ def leftmost(grammar: BoundGrammar, steps: Iterable[Step]) -> Template:
 
 def rearranged(grammar: BoundGrammar, turns: Iterable[tuple[int, int]]) -> Template:
     """The same of steps that say which of the nonterminals is rewritten, from the left, and by what production."""
-    root = _Open()
-    frontier = [root]
+    parts = grammar.parts
+    template: list[int | None] = [None]
     for at, production in turns:
-        rewritten = frontier[at]
-        rewritten.production = production
-        rewritten.parts = [_Open() for _ in grammar.parts[production]]
-        frontier[at : at + 1] = rewritten.parts
-    return _preorder(root)
+        place = template.index(None)
+        for _ in range(at):
+            place = template.index(None, place + 1)
+        template[place] = production
+        template[place + 1 : place + 1] = [None] * len(parts[production])
+    return tuple(template)
 
 
 def complete(template: Template, parts: Sequence[Derivation]) -> Derivation:
@@ -59,7 +52,7 @@ def block_derivations(grammar: BoundGrammar, derivation: Derivation) -> list[tup
     while at < len(derivation):
         symbol = grammar.productions[derivation[at]].lhs
         if symbol in grammar.blocks:
-            end = _end(grammar, derivation, at)
+            end = end_of(grammar.growth, derivation, at)
             found.append((symbol, derivation[at:end]))
             at = end
         else:
@@ -83,19 +76,10 @@ def _leads_to(
         return False
 
 
-def _end(grammar: BoundGrammar, derivation: Derivation, at: int) -> int:
-    parts, pending = grammar.parts, 1
+def end_of(growth: Sequence[int], derivation: Derivation, at: int) -> int:
+    """Where the part of a derivation ends that begins at a step; `growth` is the grammar's."""
+    pending = 1
     while pending:
-        pending += len(parts[derivation[at]]) - 1
+        pending += growth[derivation[at]]
         at += 1
     return at
-
-
-def _preorder(root: _Open) -> Template:
-    found: list[int | None] = []
-    stack = [root]
-    while stack:
-        node = stack.pop()
-        found.append(node.production)
-        stack.extend(reversed(node.parts))
-    return tuple(found)

@@ -8,6 +8,7 @@ each is worked out once, by `grammar.leftmost`, and a step is then a look-up by 
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Container
 from functools import cached_property
 from itertools import accumulate
 
@@ -15,10 +16,12 @@ import numpy as np
 from attrs import define, field
 
 from grammarbt.bt import BehaviorTree
+from grammarbt.bt.model import MAX_DEPTH, Node
+from grammarbt.bt.notation import Token
 from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
 from grammarbt.grammar.table import CLOSE
 from grammarbt.grammar.vectors import NOTHING
-from grammarbt.search.derivations import Template
+from grammarbt.search.derivations import Template, end_of
 
 MAX_STATES = 200_000
 ENDLESS = 1_000_000
@@ -126,6 +129,8 @@ class States:
         self._backwards = tuple(production.rhs[::-1] for production in grammar.productions)
         needs = {symbol: grammar.forms.needs.of(symbol) for symbol in grammar.by_lhs}
         self._alike = {symbol: next(like for like in needs if needs[like] == own) for symbol, own in needs.items()}
+        self._rows: dict[Derivation, tuple[Node, ...]] = {}
+        self._most_open = max(production.rhs.count(grammar.brackets[0]) for production in grammar.productions)
         self._content = frozenset(symbol for symbol, own in needs.items() if own == NOTHING)
         self.start = self._state(grammar.start())
 
@@ -157,17 +162,39 @@ class States:
         return tuple(walk.derivation)
 
     def tree(self, derivation: Derivation) -> BehaviorTree:
-        """The behavior tree that a whole derivation spells."""
-        word: list[int] = []
-        steps = iter(derivation)
-        pending = [self.grammar.start_symbol]
+        """The behavior tree that a whole derivation spells; equal sub-trees of blocks are made once.
+
+        Raises:
+            GrammarError: it is deeper than trees can be.
+        """
+        shallow = len(derivation) * self._most_open < MAX_DEPTH
+        return self._row(derivation, self.grammar.blocks if shallow else ())[0]
+
+    def _row(self, derivation: Derivation, blocks: Container[int]) -> tuple[Node, ...]:
+        """What a derivation from any nonterminal spells; made once below the blocks."""
+        terminals, backwards = self.grammar.terminals, self._backwards
+        tokens: list[Token | Node] = []
+        at, pending = 1, [*backwards[derivation[0]]]
         while pending:
             symbol = pending.pop()
             if symbol < self.grammar.start_symbol:
-                word.append(symbol)
+                tokens.append(terminals[symbol])
+            elif symbol in blocks:
+                end = end_of(self.grammar.growth, derivation, at)
+                tokens += self._below_block(derivation[at:end])
+                at = end
             else:
-                pending += self._backwards[next(steps)]
-        return self.grammar.tree_of(tuple(word))
+                pending += backwards[derivation[at]]
+                at += 1
+        return self.grammar.row_of(tokens)
+
+    def _below_block(self, derivation: Derivation) -> tuple[Node, ...]:
+        known = self._rows.get(derivation)
+        if known is None:
+            if len(self._rows) >= MAX_STATES:
+                self._rows.clear()
+            known = self._rows[derivation] = self._row(derivation, ())
+        return known
 
     def step(self, state: State, production: int) -> Transition:
         """What a legal production does in a state."""

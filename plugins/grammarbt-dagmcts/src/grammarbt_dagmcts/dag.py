@@ -6,7 +6,7 @@ A node is a number, and everything about nodes stands in columns: a search keeps
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterable
+from typing import TypeAlias
 
 from grammarbt.grammar import BoundGrammar, Pieces, SententialForm, Spelling
 from grammarbt_dagmcts.edges import Edges
@@ -14,6 +14,12 @@ from grammarbt_dagmcts.rewards import Rewards
 
 ROOT = 0
 """The node of the start symbol."""
+
+MAX_FANS = 50_000
+"""Nodes of which the open children are kept."""
+
+Fan: TypeAlias = "tuple[array[int], array[int]]"
+"""Edges from a node, and the children that they lead to."""
 
 _NONE_LEFT = array("I")
 
@@ -42,6 +48,7 @@ class Dag:
         self.selections = array("I")
         self.words = bytearray()
         self.closed = bytearray()
+        self._fans: dict[int, Fan] = {}
         self._untried: list[array[int] | None] = []
         self._by_text: dict[str, int] = {}
         self.add(self.spelling.text(grammar.start()))
@@ -62,7 +69,7 @@ class Dag:
         """The edge by a legal production; the node below may have been there before."""
         text = self._applied(parent, place, production)
         known = self.find(text)
-        return self.edges.join(parent, self.add(text) if known is None else known, production, place)
+        return self._joined(parent, self.add(text) if known is None else known, production, place)
 
     def _applied(self, parent: int, place: int, production: int) -> str:
         text = self.texts[parent]
@@ -88,7 +95,11 @@ class Dag:
         return len(self.texts) - 1
 
     def _join(self, parent: int, child: int, production: int, at: int) -> None:
-        self.edges.join(parent, child, production, len(self.spelling.nonterminals(self.texts[parent][:at])))
+        self._joined(parent, child, production, self.spelling.place(self.texts[parent], at))
+
+    def _joined(self, parent: int, child: int, production: int, place: int) -> int:
+        self._fans.pop(parent, None)
+        return self.edges.join(parent, child, production, place)
 
     # Productions that no selection took yet, as place · productions + production
 
@@ -117,12 +128,24 @@ class Dag:
         while pending:
             done = pending.pop()
             self.closed[done] = True
-            pending += [
-                above for above in self.edges.parents(done) if not self.closed[above] and self._exhausted(above)
-            ]
+            for above in self.edges.parents(done):
+                self._fans.pop(above, None)
+                if not self.closed[above] and self._exhausted(above):
+                    pending.append(above)
 
     def _exhausted(self, node: int) -> bool:
         return self._untried[node] is _NONE_LEFT and all(self.closed[child] for child in self.edges.children(node))
+
+    def open_below(self, node: int) -> Fan:
+        """The edges to children below which something is left to propose, last one first, and the children."""
+        known = self._fans.get(node)
+        if known is None:
+            if len(self._fans) >= MAX_FANS:
+                self._fans.clear()
+            child, closed = self.edges.child, self.closed
+            edges = array("I", [edge for edge in self.edges.below(node) if not closed[child[edge]]])
+            known = self._fans[node] = edges, array("I", [child[edge] for edge in edges])
+        return known
 
     # Ancestors
 
@@ -160,18 +183,6 @@ class Dag:
             layer = above
         return below, reached
 
-    def ancestors(self, nodes: Iterable[int]) -> list[int]:
-        """The nodes and all their ancestors, each once, nearest first."""
-        order = list(nodes)
-        found = set(order)
-        for node in order:  # grows while it is read
-            for edge in self.edges.above(node):
-                parent = self.edges.parent[edge]
-                if parent not in found:
-                    found.add(parent)
-                    order.append(parent)
-        return order
-
     def levels(self) -> list[list[int]]:
         """The nodes that the root leads to, by the fewest productions it takes."""
         found, layer, met = [], [ROOT], {ROOT}
@@ -188,4 +199,4 @@ class Tree(Dag):
 
     def after(self, parent: int, place: int, production: int) -> int:
         """The edge to a new node below the parent."""
-        return self.edges.join(parent, self._new(self._applied(parent, place, production)), production, place)
+        return self._joined(parent, self._new(self._applied(parent, place, production)), production, place)

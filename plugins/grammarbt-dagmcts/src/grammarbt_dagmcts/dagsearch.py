@@ -9,6 +9,7 @@ from grammarbt.bt import BehaviorTree
 from grammarbt.grammar import BoundGrammar, parse_tree
 from grammarbt.search import Batches, Evaluation, Scenarios, SearchContext, make_bandit
 from grammarbt_dagmcts.dag import ROOT, Dag, Tree
+from grammarbt_dagmcts.draws import Draws
 from grammarbt_dagmcts.experience import Experience
 from grammarbt_dagmcts.parameters import DagMctsParameters
 from grammarbt_dagmcts.rollout import RollOut, RollOuts
@@ -36,7 +37,7 @@ class DagSearch:
         only_unvisited: bool,
     ) -> None:
         self.parameters = parameters
-        self.rng = context.rng
+        self.draws = Draws(context.rng)
         self.links = parameters.dag and parameters.ancestor_links
         self.link_new = link_new
         self.only_unvisited = only_unvisited
@@ -50,7 +51,7 @@ class DagSearch:
         self.grammar = grammar
         self.dag = Dag(grammar) if self.parameters.dag else Tree(grammar)
         self.bandit = make_bandit(self.parameters.bandit, 1.0 if self.parameters.c is None else self.parameters.c)
-        self._roll_outs = RollOuts(self.dag, self.rng, self.longest)
+        self._roll_outs = RollOuts(self.dag, self.draws, self.longest)
 
     def restart(self) -> None:
         """Begin a new DAG, with the most promising sub-trees as productions."""
@@ -90,16 +91,16 @@ class DagSearch:
     def _descend(self) -> tuple[int, ...] | None:
         """One way down; None if it ended at a node below which nothing is left, which is then closed."""
         path: list[int] = []
-        node = ROOT
+        node, nodes = ROOT, self.dag.texts
         while not self.dag.words[node]:
-            known = len(self.dag)
+            known = len(nodes)
             edge = self._expand(node) or self._best_edge(node)
             if not edge:
                 self.dag.close(node)
                 return None
             path.append(edge)
             node = self.dag.edges.child[edge]
-            if len(self.dag) > known:
+            if len(nodes) > known:
                 break
         return tuple(path)
 
@@ -109,7 +110,7 @@ class DagSearch:
         The child is new unless another path led there.
         """
         while untried := self.dag.untried(node):
-            place, production = self.dag.take_untried(node, int(self.rng.integers(len(untried))))
+            place, production = self.dag.take_untried(node, self.draws.below(len(untried)))
             edge = self._after(node, place, production)
             child = self.dag.edges.child[edge]
             if not self.dag.closed[child] and not (self.only_unvisited and self.dag.rewards.visits[child]):
@@ -133,20 +134,14 @@ class DagSearch:
 
         One without a reward comes first, ties are broken by a random number.
         """
-        best, highest = 0, float("-inf")
-        children, closed, visits = self.dag.edges.child, self.dag.closed, self.dag.rewards.visits
-        selections, trials = self.dag.selections, self.dag.selections[node]
-        for edge in self.dag.edges.below(node):
-            child = children[edge]
-            if closed[child]:
-                continue
-            index = float("inf")
-            if visits[child]:
-                pulls = selections[child] + self.rng.random() + 1e-9
-                index = self.bandit.index(self.dag.rewards.arm(child), pulls, trials)
-            if not best or index > highest:
-                best, highest = edge, index
-        return best
+        edges, children = self.dag.open_below(node)
+        if not edges:
+            return 0
+        visits, selections = self.dag.rewards.visits, self.dag.selections
+        if 0 in map(visits.__getitem__, children):
+            return next(edge for edge, child in zip(edges, children, strict=True) if not visits[child])
+        draw = self.draws.ready(len(children)).pop
+        return edges[self.dag.rewards.most_urgent(children, self.bandit, (selections, draw), selections[node])]
 
     # Backup
 
@@ -154,7 +149,7 @@ class DagSearch:
         """Give the reward to each ancestor once, whatever the number of paths; gives the reward."""
         reward = self.experience.learn(evaluation)
         self.bandit.observe(reward)
-        self.dag.rewards.credit(self.dag.ancestors(reversed(self._nodes(roll_out.path))), self.bandit, reward)
+        self.dag.rewards.credit(self.dag.edges.ancestors(reversed(self._nodes(roll_out.path))), self.bandit, reward)
         return reward
 
     def begin_from(self, tree: BehaviorTree) -> Batches[None]:

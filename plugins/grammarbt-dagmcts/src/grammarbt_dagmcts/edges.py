@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterator
+from collections.abc import Iterable
 
 
 class Edges:
@@ -38,32 +38,29 @@ class Edges:
 
     def join(self, parent: int, child: int, production: int, place: int) -> int:
         """The edge between two nodes, which may have been there before, by whatever production."""
-        for known in self.above(child):
-            if self.parent[known] == parent:
+        above, parents, following = self._first_above[child], self.parent, self._next_above
+        known = above
+        while known:
+            if parents[known] == parent:
                 return known
-        edge = len(self.parent)
-        self.parent.append(parent)
+            known = following[known]
+        edge = len(parents)
+        parents.append(parent)
         self.child.append(child)
         self.production.append(production)
         self.place.append(place)
         self._next_below.append(self._first_below[parent])
-        self._next_above.append(self._first_above[child])
+        following.append(above)
         self._first_below[parent] = self._first_above[child] = edge
         return edge
 
-    def below(self, node: int) -> Iterator[int]:
+    def below(self, node: int) -> list[int]:
         """The edges to a node's children."""
-        edge = self._first_below[node]
-        while edge:
-            yield edge
-            edge = self._next_below[edge]
+        return _listed(self._first_below[node], self._next_below)
 
-    def above(self, node: int) -> Iterator[int]:
+    def above(self, node: int) -> list[int]:
         """The edges from a node's parents."""
-        edge = self._first_above[node]
-        while edge:
-            yield edge
-            edge = self._next_above[edge]
+        return _listed(self._first_above[node], self._next_above)
 
     def children(self, node: int) -> list[int]:
         """The nodes below a node by one production."""
@@ -72,3 +69,26 @@ class Edges:
     def parents(self, node: int) -> list[int]:
         """The nodes above a node by one production."""
         return [self.parent[edge] for edge in self.above(node)]
+
+    def ancestors(self, nodes: Iterable[int]) -> list[int]:
+        """The nodes and all that lead to them, each once, nearest first; written out, as every iteration asks for them."""
+        order = list(nodes)
+        found = set(order)
+        parents, first, following = self.parent, self._first_above, self._next_above
+        for node in order:  # grows while it is read
+            edge = first[node]
+            while edge:
+                parent = parents[edge]
+                if parent not in found:
+                    found.add(parent)
+                    order.append(parent)
+                edge = following[edge]
+        return order
+
+
+def _listed(edge: int, following: array[int]) -> list[int]:
+    found: list[int] = []
+    while edge:
+        found.append(edge)
+        edge = following[edge]
+    return found

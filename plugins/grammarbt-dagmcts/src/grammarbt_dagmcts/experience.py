@@ -44,7 +44,10 @@ class Experience:
         self.fame.add(evaluation.proposal.tree, evaluation.returns)
         units = block_derivations(self.grammar, evaluation.proposal.derivation or ())
         for unit in dict.fromkeys(units):
-            self.subtrees.setdefault(unit, Arm()).add(reward)
+            arm = self.subtrees.get(unit)
+            if arm is None:
+                arm = self.subtrees[unit] = Arm()
+            arm.add(reward)
         if evaluation.mean > self.highest:
             self.best, self.highest = units, reward
         return reward

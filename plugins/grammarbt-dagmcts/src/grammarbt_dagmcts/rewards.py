@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from math import sqrt
+from typing import TypeAlias
 
-from grammarbt.search import Arm, Bandit
+from grammarbt.search import Arm, Bandit, Ucb1
+
+NEVER_ZERO = 1e-9
+"""What is added to pulls, as one divides by them."""
+
+Selections: TypeAlias = "tuple[array[int], Callable[[], float]]"
 
 
 class Rewards:
@@ -39,12 +46,44 @@ class Rewards:
 
     def credit(self, nodes: Iterable[int], bandit: Bandit, reward: float) -> None:
         """Give each node the reward observed last."""
+        if isinstance(bandit, Ucb1):
+            self._count(nodes, reward)
+            return
         for node in nodes:
             arm = self.arm(node)
             bandit.credit(arm, reward)
             self.visits[node], self.total[node], self._squares[node] = arm.visits, arm.total, arm.squares
             if arm.kept:
                 self._kept[node] = arm.kept
+
+    def _count(self, nodes: Iterable[int], reward: float) -> None:
+        """What UCB1 credits, without arms in between: most of the time it is asked for."""
+        visits, total, squares, squared = self.visits, self.total, self._squares, reward * reward
+        for node in nodes:
+            visits[node] += 1
+            total[node] += reward
+            squares[node] += squared
+
+    def most_urgent(self, nodes: Iterable[int], bandit: Bandit, selections: Selections, trials: int) -> int:
+        """The place of the node with the highest index, the first of equals; all have rewards.
+
+        Args:
+            nodes: the arms.
+            bandit: the rule.
+            selections: per node, how often it was pulled; and what gives a random number to add to it.
+            trials: pulls of all of them.
+        """
+        pulled, draw = selections
+        if not isinstance(bandit, Ucb1):
+            indices = [bandit.index(self.arm(node), pulled[node] + draw() + NEVER_ZERO, trials) for node in nodes]
+            return indices.index(max(indices))
+        visits, total, (scale, twice_log) = self.visits, self.total, bandit.bonus(trials)
+        best, highest = 0, float("-inf")
+        for place, node in enumerate(nodes):  # most of a selection's time is spent here
+            index = total[node] / visits[node] + scale * sqrt(twice_log / (pulled[node] + draw() + NEVER_ZERO))
+            if index > highest:
+                best, highest = place, index
+        return best
 
     def mean(self, node: int) -> float:
         """Mean reward; 0 before the first."""

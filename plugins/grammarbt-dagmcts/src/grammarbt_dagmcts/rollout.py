@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from itertools import accumulate
+from typing import TypeAlias
 
-import numpy as np
-from attrs import define, field, frozen
+from attrs import define, frozen
 
 from grammarbt.grammar import BoundGrammar, Derivation, Pieces
-from grammarbt.search import Proposal, States, complete, pick, rearranged
+from grammarbt.search import Proposal, States, complete, rearranged
 from grammarbt_dagmcts.dag import ROOT, Dag
+from grammarbt_dagmcts.draws import Draws
 
 MAX_FORKS = 100_000
 """Pieces of forms for which it is kept what a roll-out may do next."""
@@ -24,36 +25,25 @@ class RollOut:
     proposal: Proposal
 
 
+Way: TypeAlias = "tuple[int, str, Fork | None]"
+"""A production, the nonterminals that it puts in, last one first, and what is left of the piece then, once it was taken."""
+
+
 @define(eq=False)
 class Fork:
     """What may be done at the first nonterminal of a piece.
 
     Attributes:
-        text: the piece, spelled.
-        productions: the legal ones.
-        bounds: running sums of their weights.
-        shortest: those of them after which the fewest are left to do.
-        after: what is left of the piece after each production, once taken; no text if nothing is.
+        text: the piece, spelled; none if nothing is left of it.
+        ways: what is legal.
+        bounds: running sums of the productions' weights.
+        shortest: places of those ways after which the fewest productions are left to take.
     """
 
     text: str
-    productions: tuple[int, ...]
+    ways: list[Way]
     bounds: list[float]
     shortest: list[int]
-    after: dict[int, Fork] = field(factory=dict)
-
-    def draw(self, rng: np.random.Generator) -> int:
-        """A production by weight."""
-        if len(self.productions) == 1:
-            return self.productions[0]
-        return self.productions[bisect_right(self.bounds, rng.random() * self.bounds[-1])]
-
-
-@define(eq=False)
-class Walk:
-    """A piece that is being derived, from left to right."""
-
-    fork: Fork
 
 
 class Forks:
@@ -62,6 +52,8 @@ class Forks:
     def __init__(self, grammar: BoundGrammar, pieces: Pieces) -> None:
         self.grammar = grammar
         self.pieces = pieces
+        names = {symbol: pieces.spelling.text(grammar.start(symbol)) for symbol in grammar.by_lhs}
+        self._parts = tuple("".join(names[part] for part in parts[::-1]) for parts in grammar.parts)
         self._least = least_steps(grammar)
         self._known: dict[str, Fork] = {}
 
@@ -78,15 +70,18 @@ class Forks:
         legal = self.pieces.legal(text, self.pieces.spelling.positions(text)[0]) if text else ()
         weights = (self.grammar.productions[production].weight for production in legal)
         least = min((self._least[production] for production in legal), default=0.0)
-        shortest = [production for production in legal if self._least[production] == least]
-        return Fork(text, legal, list(accumulate(weights)), shortest)
+        shortest = [place for place, production in enumerate(legal) if self._least[production] == least]
+        ways: list[Way] = [(production, self._parts[production], None) for production in legal]
+        return Fork(text, ways, list(accumulate(weights)), shortest)
 
-    def step(self, fork: Fork, production: int) -> Fork:
+    def step(self, fork: Fork, way: int) -> Fork:
         """What is left of a piece; independent nonterminals are pieces of their own."""
         spelling = self.pieces.spelling
+        production, parts, _ = fork.ways[way]
         after = spelling.apply(fork.text, production, spelling.positions(fork.text)[0])
         own = (piece.text for piece in self.pieces.split(after) if piece.text not in self.pieces.independent)
-        left = fork.after[production] = self.at(next(own, ""))
+        left = self.at(next(own, ""))
+        fork.ways[way] = production, parts, left
         return left
 
 
@@ -95,19 +90,16 @@ class RollOuts:
 
     Args:
         dag: where roll-outs begin.
-        rng: randomness.
+        draws: randomness.
         longest: random productions of a roll-out.
     """
 
-    def __init__(self, dag: Dag, rng: np.random.Generator, longest: int) -> None:
+    def __init__(self, dag: Dag, draws: Draws, longest: int) -> None:
         self.dag = dag
-        self.rng = rng
+        self.draws = draws
         self.longest = longest
         self._states = States(dag.grammar)
         self._forks = Forks(dag.grammar, dag.pieces)
-        spelled = dag.spelling.text
-        names = {symbol: spelled(dag.grammar.start(symbol)) for symbol in dag.grammar.by_lhs}
-        self._parts = tuple("".join(names[part] for part in parts[::-1]) for parts in dag.grammar.parts)
 
     def below(self, path: tuple[int, ...], scenario: int) -> RollOut:
         """A roll-out from the path's last node, to be simulated on one scenario."""
@@ -119,31 +111,45 @@ class RollOuts:
 
     def _finished(self, text: str) -> list[Derivation]:
         """A random derivation from each of a form's nonterminals."""
-        walks: dict[int, Walk] = {}
-        for piece in self.dag.pieces.split(text):
-            walks.update(dict.fromkeys(piece.places, Walk(self._forks.at(piece.text))))
+        pieces = self.dag.pieces.split(text)
+        forks = [self._forks.at(piece.text) for piece in pieces]
+        owner = {place: number for number, piece in enumerate(pieces) for place in piece.places}
         found: list[Derivation] = []
-        left = self.longest
+        longest = self.longest
         for place, symbol in enumerate(self.dag.spelling.nonterminals(text)):
-            found.append(self._derived(symbol, walks[place], left))
-            left -= len(found[-1])
+            number = owner[place]
+            derivation, forks[number] = self._derived(symbol, forks[number], longest)
+            found.append(derivation)
+            longest -= len(derivation)
         return found
 
-    def _derived(self, symbol: str, walk: Walk, longest: int) -> Derivation:
-        """A random derivation from the first nonterminal of what is left of a piece."""
+    def _derived(self, symbol: str, fork: Fork, longest: int) -> tuple[Derivation, Fork]:
+        """A random derivation from the first nonterminal of what is left of a piece, and what is left then."""
         found: list[int] = []
-        independent, rng = self.dag.pieces.independent, self.rng
-        stack = [(symbol, walk)]
+        independent, drawn = self.dag.pieces.independent, self.draws.left
+        stack: list[str] = [symbol]
+        around: list[Fork] = []
         while stack:
-            symbol, walk = stack.pop()
-            if symbol in independent and walk.fork.text != symbol:
-                walk = Walk(self._forks.at(symbol))
-            fork = walk.fork
-            production = fork.draw(rng) if len(found) < longest else pick(fork.shortest, rng)
+            symbol = stack.pop()
+            if not symbol:
+                fork = around.pop()
+                continue
+            if symbol in independent:
+                around.append(fork)
+                stack.append("")
+                fork = self._forks.at(symbol)
+            if len(found) >= longest:
+                way = fork.shortest[self.draws.below(len(fork.shortest))]
+            elif len(fork.ways) == 1:
+                way = 0
+            else:
+                draw = drawn.pop() if drawn else self.draws.ready(1).pop()
+                way = bisect_right(fork.bounds, draw * fork.bounds[-1])
+            production, parts, left = fork.ways[way]
             found.append(production)
-            walk.fork = fork.after.get(production) or self._forks.step(fork, production)
-            stack += [(part, walk) for part in self._parts[production]]
-        return tuple(found)
+            stack += parts
+            fork = left or self._forks.step(fork, way)
+        return tuple(found), fork
 
 
 def least_steps(grammar: BoundGrammar) -> list[float]:

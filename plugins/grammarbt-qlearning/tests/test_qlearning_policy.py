@@ -133,3 +133,18 @@ def test_too_many_conditions_are_refused():
     grammar = bind(load_grammar(Source("l.grammar", LISTS.format(nodes=40))), many)
     with pytest.raises(SearcherError, match="9 conditions"):
         QLearning(SearchContext(grammar, many, np.random.default_rng(0), 100), QLearningParameters(table="policy"))
+
+
+def test_a_grammar_without_negation_will_do_for_a_single_condition():
+    one = Vocabulary((Group("g", tuple(map(ActionType, "ab")), (ConditionType("x"),)),))
+    text = '%declare ACTION CONDITION\nstart: "?" "(" "→" "(" CONDITION ACTION ")" ACTION ")"'
+    grammar = bind(load_grammar(Source("one.grammar", text)), one)
+    found = QLearning(SearchContext(grammar, one, np.random.default_rng(0), 100), QLearningParameters(table="policy"))
+    seen = {str(proposal.tree) for _ in range(20) for proposal in told(found)}
+    assert len(seen) == 4
+
+
+def told(found):
+    asked = found.ask(4)
+    found.tell([Evaluation(one, (0.0,) * (one.stop - one.start)) for one in asked])
+    return asked

@@ -47,7 +47,7 @@ class DecisionLists:
         self.conditions = tuple(conditions)
         self.actions = tuple(actions)
         self.truth = np.arange(2 ** len(conditions))[:, None] >> np.arange(len(conditions)) & 1
-        self._tests = sorted(product((-1, 0, 1), repeat=len(conditions)), key=lambda test: -test.count(-1))
+        self._tests = sorted(product((-1, 1, 0), repeat=len(conditions)), key=lambda test: -test.count(-1))
         self._covers = np.array([self._covered(test) for test in self._tests])
         self._sizes = self._covers.astype(np.int64)
 

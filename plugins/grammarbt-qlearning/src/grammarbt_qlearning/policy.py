@@ -124,12 +124,12 @@ class PolicySearch:
             return None
 
     def _simulate(self, drawn: Sequence[Drawn]) -> Batches[None]:
-        """Learn from what is new beside the greedy policy, which comes first; where scenarios are alike, once."""
+        """Learn from policies beside the greedy one, which comes first; what is known teaches again, at no cost."""
         greedy, *others = {one.derivation: one for one in drawn}.values()
-        new = [one for one in others if not self.scorer.is_settled(one.derivation)]
-        self.repeated = 0 if new else self.repeated + 1
-        usual, *scores = yield from self.scorer.score([one.derivation for one in (greedy, *new)])
-        for one, score in zip(new, scores, strict=True):
+        known = all(self.scorer.is_settled(one.derivation) for one in others)
+        self.repeated = self.repeated + 1 if known else 0
+        usual, *scores = yield from self.scorer.score([one.derivation for one in (greedy, *others)])
+        for one, score in zip(others, scores, strict=True):
             self._learn(one, score, self.scorer.reward(score) - self.scorer.reward(usual))
         self._improve()
 

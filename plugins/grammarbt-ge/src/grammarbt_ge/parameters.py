@@ -14,7 +14,7 @@ class GeParameters(EvolutionParameters):
     """How genomes are read and bred."""
 
     tournament: int = field(
-        default=3,
+        default=12,
         validator=validators.ge(1),
         metadata={"help": "individuals of which the best becomes a parent"},
     )

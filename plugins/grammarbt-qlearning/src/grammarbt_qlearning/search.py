@@ -12,6 +12,7 @@ from grammarbt.grammar import Derivation, parse_tree
 from grammarbt.search import Batches, BatchSearcher, Scorer, SearchContext, State, States, Walk, Width, pick
 from grammarbt_qlearning.choices import Choices, Option
 from grammarbt_qlearning.parameters import QLearningParameters, View
+from grammarbt_qlearning.policy import PolicySearch
 
 REPEATS = 1_000
 """Derivations in a row that were simulated before, after which the search is over."""
@@ -27,10 +28,14 @@ Derived: TypeAlias = "tuple[Derivation, list[Decision]]"
 
 
 class QLearning(BatchSearcher):
-    """Q-learning (Watkins 1989) over productions, as Dey & Child ("QL-BT", CIG 2013) learn the parts of a tree."""
+    """Q-learning (Watkins 1989) over productions, as Dey & Child ("QL-BT", CIG 2013) learn the parts of a tree.
+
+    Or, with another table, over the actions of a policy, which becomes a tree.
+    """
 
     def __init__(self, context: SearchContext, parameters: QLearningParameters) -> None:
-        super().__init__("qlearning", ValueSearch(context, parameters))
+        learner = PolicySearch if parameters.table == "policy" else ValueSearch
+        super().__init__("qlearning", learner(context, parameters))
 
 
 @define(eq=False)
@@ -79,9 +84,7 @@ class ValueSearch:
     @property
     def chance(self) -> float:
         """Epsilon, now."""
-        done = self.scorer.returns.visits / (self.parameters.cooled * self.context.budget)
-        first, last = self.parameters.first_chance, self.parameters.last_chance
-        return first + min(done, 1.0) * (last - first)
+        return self.parameters.chance(self.scorer.returns.visits, self.context.budget)
 
     def _derived(self, given: Derivation | None = None) -> Derived:
         """A derivation, or the given one, and the decisions that it takes."""

@@ -22,6 +22,7 @@ from grammarbt_dask.parameters import DaskParameters
 TESTS = Path(__file__).parent
 CORRIDOR = f"{TESTS.parents[2] / 'docs' / 'examples' / 'corridor.py'}:Corridor"
 WORLD = f"{TESTS / 'worlds.py'}:World"
+PATIENCE = 120  # seconds until an answer that never comes is a failure
 
 
 def run(folder, domain, *arguments, budget=200):
@@ -85,8 +86,8 @@ def test_a_call_that_kills_its_worker_is_told_from_those_beside_it(dask):
     deadly = executor.submit(os._exit, 3)
     after = [executor.submit(abs, -number) for number in range(5)]
     with pytest.raises(BrokenExecutor, match="ended its worker"):
-        deadly.result()
-    assert [future.result() for future in before + after] == [*range(5), *range(5)]
+        deadly.result(PATIENCE)
+    assert [future.result(PATIENCE) for future in before + after] == [*range(5), *range(5)]
 
 
 def test_an_error_in_a_call_is_that_call_s_own(dask):

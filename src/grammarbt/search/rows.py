@@ -78,7 +78,7 @@ class Rows:
             for production in grammar.productions
             if production.lhs in self._kinds
         }
-        self._beside = {
+        self._beside: dict[int | None, int] = {
             production.number: at
             for production in grammar.productions
             if production.lhs not in self._kinds
@@ -100,7 +100,7 @@ class Rows:
         for node, symbol in enumerate(tree.symbols):
             if symbol in self._kinds and node not in inside:
                 found.append(self._read(tree, node, inside))
-            elif (at := self._beside.get(tree.steps[node] or 0)) is not None and symbol not in self._kinds:
+            elif (at := self._beside.get(tree.steps[node])) is not None:
                 first, second = list(tree.children(node))[at : at + 2]
                 found.append(self._read_beside(tree, first, second, inside))
         return found

@@ -13,6 +13,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+from distributed import LocalCluster
 
 from grammarbt.cli import main
 from grammarbt.errors import RunError
@@ -88,6 +89,19 @@ def test_a_call_that_kills_its_worker_is_told_from_those_beside_it(dask):
     with pytest.raises(BrokenExecutor, match="ended its worker"):
         deadly.result(PATIENCE)
     assert [future.result(PATIENCE) for future in before + after] == [*range(5), *range(5)]
+
+
+def test_calls_do_not_wait_for_ever_when_no_worker_comes_in_the_place_of_one_that_died(dask, monkeypatch):
+    started = []
+    monkeypatch.setattr(
+        "grammarbt_dask.cluster.LocalCluster", lambda **given: started.append(LocalCluster(**given)) or started[0]
+    )
+    executor = dask(patience=15)
+    assert executor.submit(abs, -1).result(PATIENCE) == 1
+    started[0].scale(0)
+    wait_for(lambda: not started[0].scheduler.workers)
+    with pytest.raises(RunError, match="none has come in their place"):
+        executor.submit(abs, -1).result(PATIENCE)
 
 
 def test_an_error_in_a_call_is_that_call_s_own(dask):

@@ -48,7 +48,7 @@ class Cluster:
             logging.getLogger(logger).setLevel(logging.CRITICAL)
         self._name = parameters.address or "this machine"
         self._warmer = warmer
-        self._local = None if parameters.address else _start(workers)
+        self._local = None if parameters.address else _start(workers, parameters.patience)
         try:
             self.client = self._connect(parameters)
         except BaseException:
@@ -94,8 +94,9 @@ class Cluster:
             self._local.close(_FAREWELL)
 
 
-def _start(workers: int) -> LocalCluster:
-    dask.config.set(_CONFIGURATION)  # for as long as workers may have to be replaced
+def _start(workers: int, patience: float) -> LocalCluster:
+    # For as long as workers may have to be replaced; if none ever is, calls fail instead of waiting for it.
+    dask.config.set({**_CONFIGURATION, "distributed.scheduler.no-workers-timeout": f"{patience} s"})
     return LocalCluster(
         n_workers=workers,
         threads_per_worker=1,

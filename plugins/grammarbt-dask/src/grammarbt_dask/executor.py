@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, cast
 
 from attrs import frozen
 from distributed import KilledWorker
+from distributed.scheduler import NoWorkerError
 
 from grammarbt.errors import RunError
 from grammarbt_dask.cluster import Cluster
@@ -123,7 +124,11 @@ class DaskExecutor(Executor):
         except KilledWorker:
             self._died(bundle, alone=alone)
         except CancelledError:
-            self._lose(bundle)
+            self._lose(bundle, "the connection to the dask scheduler is lost", "when it runs again")
+        except NoWorkerError:
+            self._lose(
+                bundle, "the workers have died, and none has come in their place", "when the machine is less busy"
+            )
         except Exception as error:  # noqa: BLE001 - raised again where the answers are awaited
             _fail(bundle, RunError(f"dask failed with {type(error).__name__}: {error}"))
         else:
@@ -139,11 +144,9 @@ class DaskExecutor(Executor):
             with self._lock:
                 self._suspects.extend(bundle)
 
-    def _lose(self, bundle: Sequence[Task]) -> None:
+    def _lose(self, bundle: Sequence[Task], message: str, condition: str) -> None:
         with self._lock:
-            self._lost = self._lost or RunError(
-                "the connection to the dask scheduler is lost", "when it runs again, go on with 'grammarbt resume'"
-            )
+            self._lost = self._lost or RunError(message, f"{condition}, go on with 'grammarbt resume'")
             left = [*bundle, *self._suspects, *self._waiting]
             self._suspects.clear()
             self._waiting.clear()

@@ -18,5 +18,7 @@ class DaskParameters:
     patience: float = field(
         default=60.0,
         validator=gt(0),
-        metadata={"help": "seconds to wait for the scheduler and its first worker"},
+        metadata={
+            "help": "seconds to wait for the scheduler and its first worker, and, on this machine, for one in the place of all that died"
+        },
     )

@@ -32,9 +32,7 @@ AGAIN_EVERY = 3
 AGAIN = 1 / 4
 """How much cooler it begins then."""
 COOL = 1 / 16
-"""How much cooler than a round its second part is, in which only small losses are taken."""
-COOL_LENGTH = 1 / 2
-"""Episodes without gain, as a share of the first part's, after which the second ends."""
+"""How much cooler than a round its second part is, which ends after as many episodes without gain as the first part has."""
 LOSSES = 200
 """The first losses, which temperatures are scaled to."""
 SMALL_LOSS, LARGE_LOSS = 0.05, 0.9
@@ -120,7 +118,7 @@ class AnnealedSearch:
         here = best = first
         spent = drawn = gained = 0
         cool = scale == COOL
-        length = round(COOL_LENGTH * self.round_episodes) if cool else self.round_episodes
+        length = self.round_episodes
         others = [elite.site for elite in self.elites] if cool else []
         while spent - gained < length and drawn < IDLE * length:
             found = [self.edits.neighbour(here.site, others, self.rng) for _ in range(width())]

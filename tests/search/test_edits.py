@@ -195,7 +195,7 @@ def general(context, edits):
 
 
 def test_where_scenarios_do_not_matter_it_anneals():
-    strategy, _ = run(general, lambda tree, _: likeness(tree), episodes=900)
+    strategy, _ = run(general, lambda tree, _: likeness(tree), episodes=2_000)
     assert not strategy.raced.begun
     assert strategy.annealed.rounds >= 2
 

@@ -155,10 +155,10 @@ def wait_for(condition, seconds=120):
         time.sleep(0.02)
 
 
-def slow_run(folder, *arguments):
-    """The command line of a run of about two seconds' simulations."""
+def slow_run(folder, *arguments, seconds=0.01):
+    """The command line of a run of two hundred simulations of so many seconds."""
     line = ["run", "--domain", WORLD, "--searcher", "random", "--budget", "200", "--validation", "2", "--quiet"]
-    return ["grammarbt", *line, "--batch", "20", "--set", "domain.seconds=.01", "--out", str(folder), *arguments]
+    return ["grammarbt", *line, "--batch", "20", "--set", f"domain.seconds={seconds}", "--out", str(folder), *arguments]
 
 
 def trials(journal):
@@ -188,7 +188,7 @@ def test_workers_killed_midway_change_no_byte(start, tmp_path):
 
 
 def test_ctrl_c_in_a_terminal_ends_a_run_with_one_line(start, tmp_path):
-    process = start(*slow_run(tmp_path / "run", "--executor", "dask", "--workers", "2"))
+    process = start(*slow_run(tmp_path / "run", "--executor", "dask", "--workers", "2", seconds=0.1))
     wait_for(lambda: trials(tmp_path / "run" / "journal.jsonl") >= 20)
     os.killpg(process.pid, signal.SIGINT)
     errors = process.communicate(timeout=120)[1].splitlines()

@@ -101,6 +101,6 @@ def _start(workers: int, patience: float) -> LocalCluster:
         n_workers=workers,
         threads_per_worker=1,
         processes=True,
-        dashboard_address=None,
+        dashboard_address="127.0.0.1:0",  # a free port, so that runs side by side do not compete for one
         silence_logs=logging.CRITICAL,
     )

@@ -1,5 +1,6 @@
 """Sessions: the whole suite, each plugin with only the core beside it, the linters, the docs, and the wheels."""
 
+import tomllib
 from pathlib import Path
 
 import nox
@@ -21,8 +22,10 @@ def tests(session: nox.Session) -> None:
 @nox.session(python=PYTHONS[0])
 @nox.parametrize("name", PLUGINS)
 def plugin(session: nox.Session, name: str) -> None:
-    """One plugin's tests with only the core beside it."""
-    session.install("-c", "constraints.txt", ".[test]", f"./plugins/{name}")
+    """One plugin's tests with only the core beside it, and what the plugin can use."""
+    project = tomllib.loads(Path("plugins", name, "pyproject.toml").read_text())["project"]
+    extras = ",".join(project.get("optional-dependencies", ()))
+    session.install("-c", "constraints.txt", ".[test]", f"./plugins/{name}" + (f"[{extras}]" if extras else ""))
     session.run("pytest", f"plugins/{name}", *session.posargs)
 
 

@@ -65,7 +65,20 @@ def test_a_run_in_worker_processes_leaves_no_program_behind(stray, gone, holds_w
     mark = tmp_path / "mark"
     line = ["run", "--domain", "exec", "--set", f"domain.command={stray('hangs', mark)}", "--set", "domain.timeout=600"]
     process = subprocess.Popen(
-        [sys.executable, "-m", "grammarbt", *line, "--workers", "2", "--batch", "4", "--out", str(tmp_path / "run")],
+        [
+            sys.executable,
+            "-m",
+            "grammarbt",
+            *line,
+            "--searcher",
+            "random",
+            "--workers",
+            "2",
+            "--batch",
+            "4",
+            "--out",
+            str(tmp_path / "run"),
+        ],
         stderr=subprocess.DEVNULL,
     )
     assert holds_within(20, lambda: mark.exists() and len(mark.read_text().split()) == 6)

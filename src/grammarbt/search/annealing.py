@@ -6,7 +6,7 @@ Kirkpatrick, Gelatt & Vecchi, "Optimization by Simulated Annealing" (Science, 19
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import exp
+from math import exp, isfinite
 
 import numpy as np
 from attrs import frozen
@@ -78,12 +78,11 @@ class AnnealedSearch:
         self.start = start
         self.values: dict[Derivation, float] = {}
         self.reached = ReachedTrees(context.depends_on)
-        self.copies: set[Derivation] = set()
         self.fame = HallOfFame()
         self.elites: list[Place] = []
         self.losses: list[float] = []
         self.hot = self.cold = self.price = 0.0
-        self.simulated = self.rounds = self.accepted = 0
+        self.simulated = self.copies = self.rounds = self.accepted = 0
 
     def round(self, width: Width) -> Batches[Place]:
         """Cool down, then search around what came of it as long as that gains; gives the best place."""
@@ -133,7 +132,7 @@ class AnnealedSearch:
             spent += self.simulated - before
             temperature = scale * self._temperature(min(1.0, spent / length))
             for derivation, value in zip(derivations, values, strict=True):
-                if derivation not in self.copies and self._accepts(here, derivation, value, temperature):
+                if self._accepts(here, derivation, value, temperature):
                     here = self._place(derivation, value)
                     self.accepted += 1
                 if here.value > best.value:
@@ -154,8 +153,8 @@ class AnnealedSearch:
 
     def _accepts(self, here: Place, derivation: Derivation, value: float, temperature: float) -> bool:
         gain = value - here.value - self.price * (len(derivation) - len(here.derivation))
-        if gain >= 0.0:
-            return True
+        if gain >= 0.0 or not isfinite(gain):
+            return gain >= 0.0
         if len(self.losses) < LOSSES:
             self.losses.append(-gain)
             small, large = np.quantile(self.losses, (SMALL_LOSS, LARGE_LOSS))
@@ -169,10 +168,7 @@ class AnnealedSearch:
         return self.hot * (self.cold / self.hot) ** done if self.hot else 0.0
 
     def _values(self, derivations: Sequence[Derivation]) -> Batches[list[float]]:
-        """The return of each. What is known is not simulated again, and no copy: a tree that goes the ways of a known one.
-
-        A tree that fails is worth nothing.
-        """
+        """The return of each; what is known is not simulated again. Trees that fail are worth nothing, and copies neither."""
         fresh = [derivation for derivation in dict.fromkeys(derivations) if not self._is_known(derivation)]
         if fresh:
             trees = [self.edits.states.tree(derivation) for derivation in fresh]
@@ -180,25 +176,21 @@ class AnnealedSearch:
             for tree, derivation, evaluation in zip(trees, fresh, told, strict=True):
                 self.values[derivation] = evaluation.mean
                 self.fame.add(tree, evaluation.returns)
-                self.reached.add(tree, evaluation.ticks, evaluation.mean)
+                self.reached.add(tree, evaluation.ticks)
             self.simulated += len(fresh)
         return [self.values[derivation] for derivation in derivations]
 
     def _is_known(self, derivation: Derivation) -> bool:
-        """Whether there is nothing to learn by simulating it."""
-        if derivation in self.values:
-            return True
-        value = self.reached.value(self.edits.states.tree(derivation))
-        if value is None:
-            return False
-        self.values[derivation] = value
-        self.copies.add(derivation)
-        return True
+        """Whether it was simulated, or is a copy: a tree that would go the ways of one that was."""
+        if derivation not in self.values and self.reached.knows(self.edits.states.tree(derivation)):
+            self.values[derivation] = float("-inf")
+            self.copies += 1
+        return derivation in self.values
 
     def candidates(self, n: int) -> Sequence[BehaviorTree]:
         """The trees with the highest returns."""
         return self.fame.best(n)
 
     def metrics(self) -> Mapping[str, float]:
-        """Trees simulated, trees that went the ways of others, rounds, and moves made."""
-        return {"trees": self.simulated, "copies": len(self.copies), "restarts": self.rounds, "accepted": self.accepted}
+        """Trees simulated, copies that were not, rounds, and moves made."""
+        return {"trees": self.simulated, "copies": self.copies, "restarts": self.rounds, "accepted": self.accepted}

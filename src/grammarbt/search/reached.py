@@ -1,4 +1,4 @@
-"""Trees that differ only where no tick arrived: what one of them earned, the other would earn too."""
+"""Trees that differ only where no tick arrived: what one of them earns, the other earns too."""
 
 from __future__ import annotations
 
@@ -36,30 +36,28 @@ class ReachedTrees:
     def __init__(self, depends_on: Literal["behaviour", "tree"]) -> None:
         self._by_tree = depends_on == "tree"
         self._next: dict[tuple[int, str], int] = {}
-        self._known: dict[int, tuple[float, int]] = {}
+        self._sizes: dict[int, int] = {}
 
-    def add(self, tree: BehaviorTree, ticks: Sequence[int], value: float) -> None:
-        """Remember what a tree earned, and how often its leaves were ticked."""
+    def add(self, tree: BehaviorTree, ticks: Sequence[int]) -> None:
+        """Remember a tree, and how often its leaves were ticked."""
         if not ticks or not ticks[0]:  # who counts no ticks does not say what was reached
             return
         if len(self._next) > MOST_PLACES:
-            self._next, self._known = {}, {}
+            self._next, self._sizes = {}, {}
         place = 0
         for text in _read(compile_steps(tree), ticks):
             place = self._next.setdefault((place, text), len(self._next) + 1)
-        nodes = size(tree)
-        if place not in self._known or nodes < self._known[place][1]:
-            self._known[place] = (value, nodes)
+        self._sizes[place] = min(size(tree), self._sizes.get(place, size(tree)))
 
-    def value(self, tree: BehaviorTree) -> float | None:
-        """What a tree earned that went exactly the ways that this one would go; None if none is known."""
+    def knows(self, tree: BehaviorTree) -> bool:
+        """Whether a known tree went exactly the ways that this one would go."""
         steps = compile_steps(tree)
         branches: list[Branch] = [(0, (steps.first, None), dict(ENDS))]
         while branches:
-            known = self._known.get(self._follow(steps, branches))
-            if known is not None and not (self._by_tree and size(tree) < known[1]):
-                return known[0]
-        return None
+            known = self._sizes.get(self._follow(steps, branches))
+            if known is not None and not (self._by_tree and size(tree) < known):
+                return True
+        return False
 
     def _follow(self, steps: Steps, branches: list[Branch]) -> int:
         """Read on from the last branch, to the end; where only some known trees went on, the others are another branch."""

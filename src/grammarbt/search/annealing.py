@@ -33,7 +33,11 @@ AGAIN_EVERY = 3
 AGAIN = 1 / 4
 """How much cooler it begins then."""
 COOL = 1 / 16
-"""How much cooler than a round its second part is, which ends after as many episodes without gain as the first part has."""
+"""How much cooler than the beginning of a round the search around its best tree begins, each time."""
+COOL_LENGTH = 1 / 2
+"""How long that takes, in lengths of the round."""
+COOL_TIMES = 2
+"""How many times in a row it may bring no gain."""
 LOSSES = 200
 """The first losses, which temperatures are scaled to."""
 SMALL_LOSS, LARGE_LOSS = 0.05, 0.9
@@ -89,9 +93,9 @@ class AnnealedSearch:
         again = self.rounds % AGAIN_EVERY == AGAIN_EVERY - 1
         before = self.simulated
         first = self.elites[0] if again else (yield from self._first(width))
-        best = yield from self._anneal(first, AGAIN if again else 1.0, width)
+        best = yield from self._anneal(first, AGAIN if again else 1.0, self.round_episodes, width)
         best = yield from self._polish(best)
-        best = yield from self._anneal(best, COOL, width, patient=True)
+        best = yield from self._search_around(best, width)
         best = yield from self._polish(best)
         self.rounds += 1
         if self.simulated - before >= self.round_episodes:  # in a small language, longer rounds would find nothing new
@@ -117,13 +121,24 @@ class AnnealedSearch:
     def _place(self, derivation: Derivation, value: float) -> Place:
         return Place(derivation, self.edits.site(derivation), value)
 
-    def _anneal(self, first: Place, scale: float, width: Width, *, patient: bool = False) -> Batches[Place]:
-        """Cool down once; gives the best place seen. Who is patient goes on as long as that gains, and borrows from elites."""
+    def _search_around(self, best: Place, width: Width) -> Batches[Place]:
+        """Cool down from the best, borrowing from elites, as long as that gains."""
+        others = [elite.site for elite in self.elites]
+        length = round(COOL_LENGTH * self.round_episodes)
+        in_vain = 0
+        while in_vain < COOL_TIMES:
+            found = yield from self._anneal(best, COOL, length, width, others)
+            in_vain = 0 if found.value > best.value else in_vain + 1
+            best = found
+        return best
+
+    def _anneal(
+        self, first: Place, scale: float, length: int, width: Width, others: Sequence[Site] = ()
+    ) -> Batches[Place]:
+        """Cool down once, over so many episodes; gives the best place seen."""
         here = best = first
-        spent = drawn = gained = 0
-        length = self.round_episodes
-        others = [elite.site for elite in self.elites] if patient else []
-        while spent - gained < length and drawn < IDLE * length:
+        spent = drawn = 0
+        while spent < length and drawn < IDLE * length:
             found = [self.edits.neighbour(here.site, others, self.rng) for _ in range(width())]
             derivations = [derivation for derivation in found if derivation is not None]
             drawn += len(found)
@@ -137,8 +152,6 @@ class AnnealedSearch:
                     self.accepted += 1
                 if here.value > best.value:
                     best = here
-                    if patient:
-                        gained, drawn = spent, 0
         return best
 
     def _polish(self, place: Place) -> Batches[Place]:

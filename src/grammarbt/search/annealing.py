@@ -145,7 +145,7 @@ class AnnealedSearch:
             before = self.simulated
             values = yield from self._values(derivations)
             spent += self.simulated - before
-            temperature = scale * self._temperature(min(1.0, spent / length))
+            temperature = self._temperature(scale, min(1.0, spent / length))
             for derivation, value in zip(derivations, values, strict=True):
                 if self._accepts(here, derivation, value, temperature):
                     here = self._place(derivation, value)
@@ -172,13 +172,14 @@ class AnnealedSearch:
             self.losses.append(-gain)
             small, large = np.quantile(self.losses, (SMALL_LOSS, LARGE_LOSS))
             self.hot = min(HOT * float(small), HOTTEST * float(large))
-            self.cold = min(COLD * float(small), COOLING * self.hot)
+            self.cold = COLD * float(small)
             self.price = PRICE * float(small)
         return temperature > 0.0 and float(self.rng.random()) < exp(gain / temperature)
 
-    def _temperature(self, done: float) -> float:
+    def _temperature(self, scale: float, done: float) -> float:
         """Falls geometrically; 0 as long as no loss is known that it could be scaled to."""
-        return self.hot * (self.cold / self.hot) ** done if self.hot else 0.0
+        first = scale * self.hot
+        return first * (min(COOLING, self.cold / first)) ** done if first else 0.0
 
     def _values(self, derivations: Sequence[Derivation]) -> Batches[list[float]]:
         """The return of each; what is known is not simulated again. Trees that fail are worth nothing, and copies neither."""

@@ -6,7 +6,7 @@ Kirkpatrick, Gelatt & Vecchi, "Optimization by Simulated Annealing" (Science, 19
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import exp
+from math import exp, isfinite
 
 import numpy as np
 from attrs import frozen
@@ -17,6 +17,7 @@ from grammarbt.search.base import Proposal, SearchContext
 from grammarbt.search.batches import Batches, Width
 from grammarbt.search.edits import Edits
 from grammarbt.search.fame import HallOfFame
+from grammarbt.search.reached import ReachedTrees
 from grammarbt.search.site import Site
 
 FIRST_TREES = 50
@@ -32,7 +33,11 @@ AGAIN_EVERY = 3
 AGAIN = 1 / 4
 """How much cooler it begins then."""
 COOL = 1 / 16
-"""How much cooler than a round its second part is, which ends after as many episodes without gain as the first part has."""
+"""How much cooler than the beginning of a round the search around its best tree begins, each time."""
+COOL_LENGTH = 1 / 2
+"""How long that takes, in lengths of the round."""
+COOL_TIMES = 2
+"""How many times in a row it may bring no gain."""
 LOSSES = 200
 """The first losses, which temperatures are scaled to."""
 SMALL_LOSS, LARGE_LOSS = 0.05, 0.9
@@ -43,6 +48,8 @@ HOTTEST = 1 / 8
 """The first temperature at most, in large losses."""
 COOLING = 1 / 4
 """The last temperature at most, in first ones."""
+PRICE = 0.05
+"""What a production more costs, in small losses: of two trees that earn the same, the walk rather goes on from the shorter."""
 IDLE = 6
 """Draws per episode of a round after which it ends, though most were known."""
 
@@ -74,23 +81,24 @@ class AnnealedSearch:
         self.round_episodes = round_episodes or max(1, min(FIRST_ROUND, round(SHARE_OF_FIRST * context.budget)))
         self.start = start
         self.values: dict[Derivation, float] = {}
+        self.reached = ReachedTrees(context.depends_on)
         self.fame = HallOfFame()
         self.elites: list[Place] = []
         self.losses: list[float] = []
-        self.hot = self.cold = 0.0
-        self.rounds = self.accepted = 0
+        self.hot = self.cold = self.price = 0.0
+        self.simulated = self.copies = self.rounds = self.accepted = 0
 
     def round(self, width: Width) -> Batches[Place]:
         """Cool down, then search around what came of it as long as that gains; gives the best place."""
         again = self.rounds % AGAIN_EVERY == AGAIN_EVERY - 1
-        known = len(self.values)
+        before = self.simulated
         first = self.elites[0] if again else (yield from self._first(width))
-        best = yield from self._anneal(first, AGAIN if again else 1.0, width)
+        best = yield from self._anneal(first, AGAIN if again else 1.0, self.round_episodes, width)
         best = yield from self._polish(best)
-        best = yield from self._anneal(best, COOL, width)
+        best = yield from self._search_around(best, width)
         best = yield from self._polish(best)
         self.rounds += 1
-        if len(self.values) - known >= self.round_episodes:  # in a small language, longer rounds would find nothing new
+        if self.simulated - before >= self.round_episodes:  # in a small language, longer rounds would find nothing new
             self.round_episodes = round(GROWTH * self.round_episodes)
         self.elites = sorted([*self.elites, best], key=lambda place: -place.value)[:ELITES]
         return best
@@ -113,29 +121,37 @@ class AnnealedSearch:
     def _place(self, derivation: Derivation, value: float) -> Place:
         return Place(derivation, self.edits.site(derivation), value)
 
-    def _anneal(self, first: Place, scale: float, width: Width) -> Batches[Place]:
-        """Cool down once; gives the best place seen. What is cool from the beginning goes on while it gains, and borrows."""
+    def _search_around(self, best: Place, width: Width) -> Batches[Place]:
+        """Cool down from the best, borrowing from elites, as long as that gains."""
+        others = [elite.site for elite in self.elites]
+        length = round(COOL_LENGTH * self.round_episodes)
+        in_vain = 0
+        while in_vain < COOL_TIMES:
+            found = yield from self._anneal(best, COOL, length, width, others)
+            in_vain = 0 if found.value > best.value else in_vain + 1
+            best = found
+        return best
+
+    def _anneal(
+        self, first: Place, scale: float, length: int, width: Width, others: Sequence[Site] = ()
+    ) -> Batches[Place]:
+        """Cool down once, over so many episodes; gives the best place seen."""
         here = best = first
-        spent = drawn = gained = 0
-        cool = scale == COOL
-        length = self.round_episodes
-        others = [elite.site for elite in self.elites] if cool else []
-        while spent - gained < length and drawn < IDLE * length:
+        spent = drawn = 0
+        while spent < length and drawn < IDLE * length:
             found = [self.edits.neighbour(here.site, others, self.rng) for _ in range(width())]
             derivations = [derivation for derivation in found if derivation is not None]
             drawn += len(found)
-            before = len(self.values)
+            before = self.simulated
             values = yield from self._values(derivations)
-            spent += len(self.values) - before
-            temperature = scale * self._temperature(min(1.0, spent / length))
+            spent += self.simulated - before
+            temperature = self._temperature(scale, min(1.0, spent / length))
             for derivation, value in zip(derivations, values, strict=True):
-                if self._accepts(value - here.value, temperature):
+                if self._accepts(here, derivation, value, temperature):
                     here = self._place(derivation, value)
                     self.accepted += 1
                 if here.value > best.value:
                     best = here
-                    if cool:
-                        gained, drawn = spent, 0
         return best
 
     def _polish(self, place: Place) -> Batches[Place]:
@@ -148,35 +164,47 @@ class AnnealedSearch:
                 return place
             place = self._place(shorter[at], values[at])
 
-    def _accepts(self, gain: float, temperature: float) -> bool:
-        if gain >= 0.0:
-            return True
+    def _accepts(self, here: Place, derivation: Derivation, value: float, temperature: float) -> bool:
+        gain = value - here.value - self.price * (len(derivation) - len(here.derivation))
+        if gain >= 0.0 or not isfinite(gain):
+            return gain >= 0.0
         if len(self.losses) < LOSSES:
             self.losses.append(-gain)
             small, large = np.quantile(self.losses, (SMALL_LOSS, LARGE_LOSS))
             self.hot = min(HOT * float(small), HOTTEST * float(large))
-            self.cold = min(COLD * float(small), COOLING * self.hot)
+            self.cold = COLD * float(small)
+            self.price = PRICE * float(small)
         return temperature > 0.0 and float(self.rng.random()) < exp(gain / temperature)
 
-    def _temperature(self, done: float) -> float:
+    def _temperature(self, scale: float, done: float) -> float:
         """Falls geometrically; 0 as long as no loss is known that it could be scaled to."""
-        return self.hot * (self.cold / self.hot) ** done if self.hot else 0.0
+        first = scale * self.hot
+        return first * (min(COOLING, self.cold / first)) ** done if first else 0.0
 
     def _values(self, derivations: Sequence[Derivation]) -> Batches[list[float]]:
-        """The return of each; what is known is not simulated again. A tree that fails is worth nothing."""
-        fresh = [derivation for derivation in dict.fromkeys(derivations) if derivation not in self.values]
+        """The return of each; what is known is not simulated again. Trees that fail are worth nothing, and copies neither."""
+        fresh = [derivation for derivation in dict.fromkeys(derivations) if not self._is_known(derivation)]
         if fresh:
             trees = [self.edits.states.tree(derivation) for derivation in fresh]
             told = yield [Proposal(tree, derivation) for tree, derivation in zip(trees, fresh, strict=True)]
-            for derivation, evaluation in zip(fresh, told, strict=True):
+            for tree, derivation, evaluation in zip(trees, fresh, told, strict=True):
                 self.values[derivation] = evaluation.mean
-                self.fame.add(evaluation.proposal.tree, evaluation.returns)
+                self.fame.add(tree, evaluation.returns)
+                self.reached.add(tree, evaluation.ticks)
+            self.simulated += len(fresh)
         return [self.values[derivation] for derivation in derivations]
+
+    def _is_known(self, derivation: Derivation) -> bool:
+        """Whether it was simulated, or is a copy: a tree that would go the ways of one that was."""
+        if derivation not in self.values and self.reached.knows(self.edits.states.tree(derivation)):
+            self.values[derivation] = float("-inf")
+            self.copies += 1
+        return derivation in self.values
 
     def candidates(self, n: int) -> Sequence[BehaviorTree]:
         """The trees with the highest returns."""
         return self.fame.best(n)
 
     def metrics(self) -> Mapping[str, float]:
-        """Trees simulated, rounds, and moves made."""
-        return {"trees": len(self.values), "restarts": self.rounds, "accepted": self.accepted}
+        """Trees simulated, copies that were not, rounds, and moves made."""
+        return {"trees": self.simulated, "copies": self.copies, "restarts": self.rounds, "accepted": self.accepted}

@@ -9,7 +9,8 @@ from typing import TypeAlias
 from attrs import frozen
 
 from grammarbt.grammar import Derivation
-from grammarbt.search.states import ENDLESS, State, States
+from grammarbt.search.leastsizes import ENDLESS
+from grammarbt.search.states import State, States
 
 _Chain: TypeAlias = "tuple[int, _Chain] | None"
 """Numbers, the last one first."""

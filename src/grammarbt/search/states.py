@@ -22,9 +22,9 @@ from grammarbt.grammar import BoundGrammar, Derivation, SententialForm
 from grammarbt.grammar.table import CLOSE
 from grammarbt.grammar.vectors import NOTHING
 from grammarbt.search.derivations import Template, end_of
+from grammarbt.search.leastsizes import least_heights
 
 MAX_STATES = 200_000
-ENDLESS = 1_000_000
 
 
 @define(eq=False)
@@ -137,15 +137,7 @@ class States:
     @cached_property
     def heights(self) -> tuple[int, ...]:
         """Per production, the height of the lowest derivation tree that begins with it, constraints aside."""
-        found: dict[int, int] = {}
-        heights = (0,) * len(self.parts)
-        while True:
-            before = heights
-            heights = tuple(1 + max((found.get(part, ENDLESS) for part in parts), default=0) for parts in self.parts)
-            for production, height in zip(self.grammar.productions, heights, strict=True):
-                found[production.lhs] = min(height, found.get(production.lhs, ENDLESS))
-            if heights == before:
-                return heights
+        return least_heights(self.grammar)
 
     def walk(self) -> Walk:
         """A walk from the start symbol."""

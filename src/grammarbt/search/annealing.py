@@ -85,14 +85,17 @@ class AnnealedSearch:
         self.fame = HallOfFame()
         self.elites: list[Place] = []
         self.losses: list[float] = []
+        self.begun: set[Derivation] = set()
+        self.searched: set[Derivation] = set()
         self.hot = self.cold = self.price = 0.0
         self.simulated = self.copies = self.rounds = self.accepted = 0
 
     def round(self, width: Width) -> Batches[Place]:
         """Cool down, then search around what came of it as long as that gains; gives the best place."""
-        again = self.rounds % AGAIN_EVERY == AGAIN_EVERY - 1
+        again = self.rounds % AGAIN_EVERY == AGAIN_EVERY - 1 and self.elites[0].derivation not in self.begun
         before = self.simulated
         first = self.elites[0] if again else (yield from self._first(width))
+        self.begun.add(first.derivation)
         best = yield from self._anneal(first, AGAIN if again else 1.0, self.round_episodes, width)
         best = yield from self._polish(best)
         best = yield from self._search_around(best, width)
@@ -122,14 +125,15 @@ class AnnealedSearch:
         return Place(derivation, self.edits.site(derivation), value)
 
     def _search_around(self, best: Place, width: Width) -> Batches[Place]:
-        """Cool down from the best, borrowing from elites, as long as that gains."""
+        """Cool down from the best, borrowing from elites, as long as that gains; around each best but once."""
         others = [elite.site for elite in self.elites]
         length = round(COOL_LENGTH * self.round_episodes)
         in_vain = 0
-        while in_vain < COOL_TIMES:
+        while in_vain < COOL_TIMES and best.derivation not in self.searched:
             found = yield from self._anneal(best, COOL, length, width, others)
             in_vain = 0 if found.value > best.value else in_vain + 1
             best = found
+        self.searched.add(best.derivation)
         return best
 
     def _anneal(

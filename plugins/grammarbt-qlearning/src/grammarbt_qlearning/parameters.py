@@ -25,7 +25,7 @@ class QLearningParameters:
         },
     )
     view: View = field(
-        default="state",
+        default="progress",
         validator=validators.in_(("place", "progress", "state")),
         metadata={
             "help": "table=productions: what a state is: place: parent, place among its children, and how many options there are; "
@@ -40,14 +40,14 @@ class QLearningParameters:
         },
     )
     rate: float = field(
-        default=0.1,
+        default=0.3,
         validator=[validators.gt(0.0), validators.le(1.0)],
         metadata={"help": "smallest step towards a new target; the n-th visit takes 1/n while that is larger"},
     )
     first_chance: float = field(
         default=1.0, validator=_share, metadata={"help": "epsilon in the beginning: probability of a random choice"}
     )
-    last_chance: float = field(default=0.1, validator=_share, metadata={"help": "epsilon in the end"})
+    last_chance: float = field(default=0.02, validator=_share, metadata={"help": "epsilon in the end"})
     cooled: float = field(
         default=0.6,
         validator=[validators.gt(0.0), validators.le(1.0)],

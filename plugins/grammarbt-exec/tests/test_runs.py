@@ -63,22 +63,10 @@ def test_the_journal_does_not_depend_on_the_workers_even_when_programs_fail(stra
 
 def test_a_run_in_worker_processes_leaves_no_program_behind(stray, gone, holds_within, tmp_path):
     mark = tmp_path / "mark"
-    line = ["run", "--domain", "exec", "--set", f"domain.command={stray('hangs', mark)}", "--set", "domain.timeout=600"]
+    line = ["run", "--searcher", "random", "--domain", "exec", "--set", "domain.timeout=600"]
+    line += ["--set", f"domain.command={stray('hangs', mark)}", "--workers", "2", "--batch", "4"]
     process = subprocess.Popen(
-        [
-            sys.executable,
-            "-m",
-            "grammarbt",
-            *line,
-            "--searcher",
-            "random",
-            "--workers",
-            "2",
-            "--batch",
-            "4",
-            "--out",
-            str(tmp_path / "run"),
-        ],
+        [sys.executable, "-m", "grammarbt", *line, "--out", str(tmp_path / "run")],
         stderr=subprocess.DEVNULL,
     )
     assert holds_within(20, lambda: mark.exists() and len(mark.read_text().split()) == 6)

@@ -51,7 +51,7 @@ COOLING = 1 / 4
 PRICE = 0.05
 """What a production more costs, in small losses: of two trees that earn the same, the walk rather goes on from the shorter."""
 IDLE = 6
-"""Draws per episode of a round after which it ends, though most were known."""
+"""Draws per episode of a cooling after which it ends, though most were known."""
 
 
 @frozen(eq=False)
@@ -170,8 +170,10 @@ class AnnealedSearch:
 
     def _accepts(self, here: Place, derivation: Derivation, value: float, temperature: float) -> bool:
         gain = value - here.value - self.price * (len(derivation) - len(here.derivation))
-        if gain >= 0.0 or not isfinite(gain):
-            return gain >= 0.0
+        if gain >= 0.0:
+            return True
+        if not isfinite(gain):  # temperatures are scaled to what trees lose that can be simulated
+            return False
         if len(self.losses) < LOSSES:
             self.losses.append(-gain)
             small, large = np.quantile(self.losses, (SMALL_LOSS, LARGE_LOSS))
@@ -183,27 +185,32 @@ class AnnealedSearch:
     def _temperature(self, scale: float, done: float) -> float:
         """Falls geometrically; 0 as long as no loss is known that it could be scaled to."""
         first = scale * self.hot
-        return first * (min(COOLING, self.cold / first)) ** done if first else 0.0
+        return first * min(COOLING, self.cold / first) ** done if first else 0.0
 
     def _values(self, derivations: Sequence[Derivation]) -> Batches[list[float]]:
         """The return of each; what is known is not simulated again. Trees that fail are worth nothing, and copies neither."""
-        fresh = [derivation for derivation in dict.fromkeys(derivations) if not self._is_known(derivation)]
+        fresh = self._fresh(derivations)
         if fresh:
-            trees = [self.edits.states.tree(derivation) for derivation in fresh]
-            told = yield [Proposal(tree, derivation) for tree, derivation in zip(trees, fresh, strict=True)]
-            for tree, derivation, evaluation in zip(trees, fresh, told, strict=True):
+            told = yield [Proposal(tree, derivation) for derivation, tree in fresh.items()]
+            for (derivation, tree), evaluation in zip(fresh.items(), told, strict=True):
                 self.values[derivation] = evaluation.mean
                 self.fame.add(tree, evaluation.returns)
                 self.reached.add(tree, evaluation.ticks)
             self.simulated += len(fresh)
         return [self.values[derivation] for derivation in derivations]
 
-    def _is_known(self, derivation: Derivation) -> bool:
-        """Whether it was simulated, or is a copy: a tree that would go the ways of one that was."""
-        if derivation not in self.values and self.reached.knows(self.edits.states.tree(derivation)):
-            self.values[derivation] = float("-inf")
-            self.copies += 1
-        return derivation in self.values
+    def _fresh(self, derivations: Sequence[Derivation]) -> dict[Derivation, BehaviorTree]:
+        """What was not simulated yet, with its tree, and is no copy: it would not go the ways of a tree that was."""
+        fresh: dict[Derivation, BehaviorTree] = {}
+        for derivation in dict.fromkeys(derivations):
+            if derivation not in self.values:
+                tree = self.edits.states.tree(derivation)
+                if self.reached.knows(tree):
+                    self.values[derivation] = float("-inf")
+                    self.copies += 1
+                else:
+                    fresh[derivation] = tree
+        return fresh
 
     def candidates(self, n: int) -> Sequence[BehaviorTree]:
         """The trees with the highest returns."""

@@ -30,7 +30,7 @@ class ReachedTrees:
 
     Args:
         depends_on: where a return depends on the tree itself, a smaller tree than a known one may earn more, and is not
-            taken to be known.
+            taken to be known; a larger one is, on the assumption that nodes which do nothing bring nothing.
     """
 
     def __init__(self, depends_on: Literal["behaviour", "tree"]) -> None:
@@ -47,7 +47,8 @@ class ReachedTrees:
         place = 0
         for text in _read(compile_steps(tree), ticks):
             place = self._next.setdefault((place, text), len(self._next) + 1)
-        self._sizes[place] = min(size(tree), self._sizes.get(place, size(tree)))
+        nodes = size(tree)
+        self._sizes[place] = min(nodes, self._sizes.get(place, nodes))
 
     def knows(self, tree: BehaviorTree) -> bool:
         """Whether a known tree went exactly the ways that this one would go."""

@@ -27,6 +27,7 @@ from grammarbt.bt import (
     Leaf,
     Not,
     Status,
+    all_pure,
     canonical_key,
     compile_policy,
     compile_source,
@@ -35,6 +36,7 @@ from grammarbt.bt import (
     tick,
     ticker,
 )
+from grammarbt.bt.fingerprint import Fingerprints
 from grammarbt.bt.simplify import size
 from grammarbt.domain import ActionType, ConditionType, Group, TickDomain, Vocabulary
 
@@ -122,7 +124,12 @@ def loops(tree: BehaviorTree) -> dict[str, Callable[[list[list[int]]], None]]:
 
 def print_compiling(trees: list[BehaviorTree]) -> None:
     """What it costs to get there, once for each tree."""
-    ways = {"flat form": flatten, "canonical key": canonical_key, "generated source": compile_source}
+    ways = {
+        "flat form": flatten,
+        "canonical key": canonical_key,
+        "fingerprint": Fingerprints(all_pure),
+        "generated source": compile_source,
+    }
     for name, way in ways.items():
         found = fastest([partial(way, tree) for tree in trees])
         print(f"  to {name:21} {median(found) * 1e6:9.1f} µs a tree")

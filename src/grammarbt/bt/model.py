@@ -7,7 +7,6 @@ parallel are control nodes, not is the decorator, actions and conditions are lea
 from __future__ import annotations
 
 import re
-from functools import cached_property
 from itertools import count
 from reprlib import repr as shortened
 from typing import TYPE_CHECKING, TypeAlias
@@ -51,27 +50,33 @@ def _check_arguments(_: object, __: Attribute[Arguments], value: Arguments) -> N
 
 @frozen(cache_hash=True)
 class Action:
-    """A leaf that acts; a tick answers success, failure or running."""
+    """A leaf that acts; a tick answers success, failure or running.
+
+    Attributes:
+        name: of the action in the domain's vocabulary.
+        arguments: what it is given, such as a place.
+        text: the leaf in the one-line notation.
+    """
 
     name: str = field(validator=_check_name)
     arguments: Arguments = field(default=(), validator=_check_arguments)
+    text: str = field(init=False, repr=False, eq=False)
 
-    @cached_property
-    def text(self) -> str:
-        """The leaf in the one-line notation."""
+    @text.default
+    def _text(self) -> str:
         return f"[{leaf_text(self)}]"
 
 
 @frozen(cache_hash=True)
 class Condition:
-    """A leaf that asks; a tick answers success or failure."""
+    """A leaf that asks; a tick answers success or failure. Its attributes are as an action's."""
 
     name: str = field(validator=_check_name)
     arguments: Arguments = field(default=(), validator=_check_arguments)
+    text: str = field(init=False, repr=False, eq=False)
 
-    @cached_property
-    def text(self) -> str:
-        """The leaf in the one-line notation."""
+    @text.default
+    def _text(self) -> str:
         return f"({leaf_text(self)})"
 
 

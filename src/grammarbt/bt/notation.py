@@ -53,7 +53,9 @@ def parse(text: str) -> BehaviorTree:
 
 def format_tree(tree: BehaviorTree) -> str:
     """Write a tree on one line; `parse` reads back the same tree."""
-    return _WAYS[type(tree)](tree)
+    words: list[str] = []
+    _WRITERS[type(tree)](tree, words)
+    return " ".join(words)
 
 
 def format_leaf(leaf: Leaf) -> str:
@@ -61,24 +63,44 @@ def format_leaf(leaf: Leaf) -> str:
     return leaf.text
 
 
-def _format_control(node: Control) -> str:
-    inside = " ".join([_WAYS[type(child)](child) for child in node.children])
-    return f"{_SIGNS.get(type(node)) or operator(node)}( {inside} )"
+def _write_leaf(leaf: Leaf, words: list[str]) -> None:
+    words.append(leaf.text)
 
 
-def _format_not(node: Not) -> str:
+def _write_fallback(node: Fallback, words: list[str]) -> None:
+    words.append("?(")
+    _write_children(node, words)
+
+
+def _write_sequence(node: Sequence, words: list[str]) -> None:
+    words.append("→(")
+    _write_children(node, words)
+
+
+def _write_parallel(node: Parallel, words: list[str]) -> None:
+    words.append(f"‖{node.successes}(")
+    _write_children(node, words)
+
+
+def _write_children(node: Control, words: list[str]) -> None:
+    for child in node.children:
+        _WRITERS[type(child)](child, words)
+    words.append(")")
+
+
+def _write_not(node: Not, words: list[str]) -> None:
     child = format_tree(node.child)
     plain = isinstance(node.child, Condition) and not _LOOKS_LIKE_OPERATOR.match(node.child.name)
-    return f"!{child}" if plain else f"!({child})"
+    words.append(f"!{child}" if plain else f"!({child})")
 
 
-_WAYS: Mapping[type[Node], Callable[[Any], str]] = {
-    Action: format_leaf,
-    Condition: format_leaf,
-    Fallback: _format_control,
-    Sequence: _format_control,
-    Parallel: _format_control,
-    Not: _format_not,
+_WRITERS: Mapping[type[Node], Callable[[Any, list[str]], None]] = {
+    Action: _write_leaf,
+    Condition: _write_leaf,
+    Fallback: _write_fallback,
+    Sequence: _write_sequence,
+    Parallel: _write_parallel,
+    Not: _write_not,
 }
 
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache, partial
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 import numpy as np
 from attrs import define, frozen
 
 from grammarbt.bt import BehaviorTree, format_tree
-from grammarbt.bt.canonical import canonical_key
+from grammarbt.bt.fingerprint import Fingerprints, text_fingerprint
 from grammarbt.domain import Domain, scenario_numbers
 from grammarbt.run.cache import Known, ReturnCache
 from grammarbt.run.replay import Replay
@@ -23,10 +21,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from grammarbt.domain import Scenarios
-
-_DIGEST = 16
-"""Bytes of a key; two different trees among 10^12 share one with a probability below 10^-14."""
-
 
 _NOTHING, _UNKNOWN = Simulation(), Known()
 _RECENT = 1_024
@@ -126,15 +120,17 @@ class Evaluator:
         self.cache = ReturnCache() if cache is None else cache
         self._simulator = simulator or SerialSimulator(domain)
         self._first = int(scenario_numbers(seed, 0, 1)[0])
-        self._identity = lru_cache(_RECENT)(partial(_identity, tree_key(domain)))
+        self._fingerprint = tree_fingerprint(domain)
+        self._keys: dict[str, bytes] = {}
 
     def key(self, tree: BehaviorTree) -> bytes:
         """Equal for trees that always have the same return."""
-        return self._identity(tree)[1]
+        return self._key(tree, format_tree(tree))
 
     def evaluate(self, proposals: Sequence[Proposal], limit: int) -> list[Trial]:
         """Evaluate proposals in order until the next would simulate more than `limit` episodes in all."""
-        tasks = [Task(proposal, *self._identity(proposal.tree)) for proposal in proposals]
+        texts = [format_tree(proposal.tree) for proposal in proposals]
+        tasks = [Task(each, text, self._key(each.tree, text)) for each, text in zip(proposals, texts, strict=True)]
         used: dict[bytes, Known] = {}
         left, end = tasks, self.episodes + limit
         while left and (wave := self._wave(left, used, end - self.episodes)):
@@ -143,6 +139,14 @@ class Evaluator:
         trials = [task.trial for task in tasks if task.trial is not None]
         self.cache.keep(used, sum([len(trial.fresh) for trial in trials]))
         return trials
+
+    def _key(self, tree: BehaviorTree, text: str) -> bytes:
+        key = self._keys.get(text)
+        if key is None:
+            if len(self._keys) >= _RECENT:
+                self._keys.clear()
+            key = self._keys[text] = self._fingerprint(tree, text)
+        return key
 
     def _wave(self, left: Sequence[Task], used: dict[bytes, Known], limit: int) -> list[Task]:
         """Tasks whose keys all differ: what one learns, a later one of its key must know."""
@@ -182,18 +186,14 @@ class Evaluator:
             task.finish(task.simulation or (next(fresh) if task.missing else _NOTHING))
 
     def _numbers(self, missing: Sequence[int]) -> Scenarios:
+        if isinstance(missing, range):
+            return np.arange(self._first + missing.start, self._first + missing.stop, dtype=np.int64)
         return np.array([self._first + number for number in missing], dtype=np.int64)
 
 
-def _identity(key: Callable[[BehaviorTree, str], bytes], tree: BehaviorTree) -> tuple[str, bytes]:
-    """A tree in the one-line notation, and the key under which its returns are known."""
-    text = format_tree(tree)
-    return text, blake2b(key(tree, text), digest_size=_DIGEST).digest()
-
-
-def tree_key(domain: Domain) -> Callable[[BehaviorTree, str], bytes]:
+def tree_fingerprint(domain: Domain) -> Callable[[BehaviorTree, str], bytes]:
     """The function of a tree and its text whose value trees share when the domain cannot tell them apart."""
     if domain.depends_on == "tree":
-        return lambda _, text: text.encode()
-    pure = domain.vocabulary.pure.__contains__
-    return lambda tree, _: canonical_key(tree, pure)
+        return lambda _, text: text_fingerprint(text)
+    fingerprint = Fingerprints(domain.vocabulary.pure.__contains__)
+    return lambda tree, _: fingerprint(tree)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from attrs import frozen
@@ -14,8 +14,14 @@ from grammarbt.errors import DomainError
 from grammarbt.search import EvaluationStatus
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
     from grammarbt.bt import BehaviorTree, Policy
     from grammarbt.domain import Domain, Scenarios
+
+    Array: TypeAlias = NDArray[np.generic]
 
 _NUMBERS = "fiub"
 """Kinds of arrays that hold real numbers."""
@@ -44,40 +50,59 @@ class Simulation:
 
 def simulate_tree(domain: Domain, tree: BehaviorTree, scenarios: Scenarios) -> Simulation:
     """Simulate one episode per scenario; a tree that the domain cannot use is invalid."""
+    return simulate_trees(domain, [(tree, scenarios)])[0]
+
+
+def simulate_trees(domain: Domain, jobs: Iterable[tuple[BehaviorTree, Scenarios]]) -> list[Simulation]:
+    """The same for several trees, each with its scenarios.
+
+    All trees are compiled first and all answers checked last: done in a row, both take less time than between episodes.
+    """
+    policies = [(_policy(domain, tree), scenarios) for tree, scenarios in jobs]
+    answers = [(policy, scenarios, _answer(domain, policy, scenarios)) for policy, scenarios in policies]
+    return [_checked(*answer) for answer in answers]
+
+
+def _policy(domain: Domain, tree: BehaviorTree) -> Policy | Simulation:
+    """The tree compiled, or why it cannot be."""
     try:
-        policy = compile_policy(tree, domain.vocabulary.index)
+        return compile_policy(tree, domain.vocabulary.index)
     except DomainError as error:
         return Simulation(status="invalid", error=str(error))
-    return simulate(domain, policy, scenarios)
 
 
-def simulate(domain: Domain, policy: Policy, scenarios: Scenarios) -> Simulation:
-    """Simulate one episode per scenario; whatever the simulator raises becomes the status."""
+def _answer(domain: Domain, policy: Policy | Simulation, scenarios: Scenarios) -> object:
+    """What the simulator gives; whatever it raises becomes the status."""
+    if isinstance(policy, Simulation):
+        return policy
     try:
-        outcome = domain.simulate(policy, scenarios)
+        return domain.simulate(policy, scenarios)
     except Exception as error:  # noqa: BLE001 - a simulator is foreign code: whatever it raises is this trial's result
         return Simulation(status="failed", error=f"{type(error).__name__}: {error}")
-    fault = _fault(outcome, policy, scenarios)
-    if fault:
-        return Simulation(status="invalid", error=fault)
-    returns, ticks = tuple(outcome.returns.tolist()), tuple(outcome.ticks.tolist())
-    if not all(map(isfinite, returns)):
-        return Simulation(status="invalid", error="simulate gave a return that is not a finite number")
-    if not all(map(isfinite, ticks)):
-        return Simulation(status="invalid", error="simulate gave a number of ticks that is not finite")
-    return Simulation(returns, ticks)
 
 
-def _fault(outcome: object, policy: Policy, scenarios: Scenarios) -> str:
-    """What is wrong with a simulator's answer, or nothing."""
-    if not isinstance(outcome, Outcome):
-        return f"simulate gave a {type(outcome).__name__} instead of an Outcome"
-    returns, ticks = np.asarray(outcome.returns), np.asarray(outcome.ticks)
-    if returns.shape != scenarios.shape:
-        return f"simulate gave returns of shape {returns.shape} for {len(scenarios)} scenarios"
-    if ticks.shape != (policy.occurrences,):
-        return f"simulate gave ticks of shape {ticks.shape} for {policy.occurrences} leaves"
-    for name, array in (("returns", returns), ("ticks", ticks)):
-        if array.dtype.kind not in _NUMBERS or array.dtype.itemsize > _WIDEST:
-            return f"simulate gave {name} of type {array.dtype} instead of numbers"
-    return ""
+def _checked(policy: Policy | Simulation, scenarios: Scenarios, answer: object) -> Simulation:
+    """The numbers of an answer, or what is wrong with it."""
+    if isinstance(policy, Simulation):
+        return policy
+    if isinstance(answer, Simulation):
+        return answer
+    if not isinstance(answer, Outcome):
+        return _invalid(f"a {type(answer).__name__} instead of an Outcome")
+    returns, ticks = np.asarray(answer.returns), np.asarray(answer.ticks)
+    fault = _fault("returns", returns, scenarios.shape) or _fault("ticks", ticks, (policy.occurrences,))
+    return _invalid(fault) if fault else Simulation(tuple(returns.tolist()), tuple(ticks.tolist()))
+
+
+def _invalid(what: str) -> Simulation:
+    return Simulation(status="invalid", error=f"simulate gave {what}")
+
+
+def _fault(name: str, array: Array, shape: tuple[int, ...]) -> str:
+    """What is wrong with an array of an answer, or nothing."""
+    if array.shape != shape:
+        return f"{name} of shape {array.shape} instead of {shape}"
+    if array.dtype.kind not in _NUMBERS or array.dtype.itemsize > _WIDEST:
+        return f"{name} of type {array.dtype} instead of numbers"
+    finite = array.dtype.kind != "f" or all(map(isfinite, array.tolist()))
+    return "" if finite else f"{name} that are not all finite numbers"

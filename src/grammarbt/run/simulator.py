@@ -12,7 +12,7 @@ from attrs import frozen
 from grammarbt.bt import BehaviorTree, format_tree
 from grammarbt.domain import Domain, Scenarios
 from grammarbt.run.executors import SerialExecutor
-from grammarbt.run.simulate import Simulation, simulate_tree
+from grammarbt.run.simulate import Simulation, simulate_trees
 from grammarbt.run.worker import simulate_text
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ class SerialSimulator:
 
     def simulate(self, jobs: Iterable[Job]) -> Iterator[Simulation]:
         """The results, one per job, in their order."""
-        return (simulate_tree(self.domain, tree, scenarios) for tree, scenarios in jobs)
+        return iter(simulate_trees(self.domain, jobs))
 
 
 @frozen(eq=False)

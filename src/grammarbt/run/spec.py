@@ -63,7 +63,7 @@ def _settings(_: object, __: Attribute[object], value: object) -> None:
             raise UnknownNameError("part of a run", part, PARTS)
 
 
-@frozen
+@frozen(slots=False)  # slots=False: cached_property keeps its value in the instance's dict
 class RunSpec:
     """A run, as the user asked for it.
 

@@ -7,7 +7,6 @@ exactly when no sequence of condition values and action answers tells the trees 
 
 from __future__ import annotations
 
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from grammarbt.bt.bdd import DecisionGraph, GraphNode, TooLargeError
@@ -44,21 +43,13 @@ def canonical_key(tree: BehaviorTree, is_pure: Callable[[Condition], bool] = all
     Raises:
         DomainError: nested parallel nodes need more than `MAX_STEPS` steps.
     """
-    graph, start = reduced_graph(tree, is_pure)
-    return _serialise(graph.nodes, start)
-
-
-def reduced_graph(tree: BehaviorTree, is_pure: Callable[[Condition], bool] = all_pure) -> tuple[DecisionGraph, int]:
-    """The tree's graph and the node at which a tick starts: level two, or one if that would be too large.
-
-    Raises:
-        DomainError: as `canonical_key`.
-    """
-    for pure, most_nodes in ((is_pure, MAX_NODES), (none_pure, MAX_STEPS)):
-        builder = GraphBuilder(pure, most_nodes)
-        with suppress(TooLargeError):
-            return builder.graph, builder.start(tree)
-    raise AssertionError  # a graph of level one has no more nodes than the tree has steps
+    builder = GraphBuilder(is_pure, MAX_NODES)
+    try:
+        start = builder.start(tree)
+    except TooLargeError:
+        builder = GraphBuilder(none_pure, MAX_STEPS)
+        start = builder.start(tree)
+    return _serialise(builder.graph.nodes, start)
 
 
 def behave_alike(one: BehaviorTree, other: BehaviorTree, is_pure: Callable[[Condition], bool] = all_pure) -> bool:

@@ -83,7 +83,7 @@ class Stopwatch:
 def overhead(trials: int, milliseconds: float) -> None:
     """Processor time per trial, in which the domain, the searcher and the rest are told apart."""
     print("simulation      trials  batch  simulating  searching  framework   framework's share")
-    for seconds, batch in product((0.0, milliseconds / 1_000), (1, 16)):
+    for seconds, batch in product((0.0, milliseconds / 1_000), (1, 16, 64)):
         number = trials if seconds == 0.0 else min(trials, 20_000)
         with tempfile.TemporaryDirectory() as scratch:
             spec = _spec(Path(scratch) / "run", number, batch=batch, set={"domain": {"seconds": seconds}})

@@ -1,5 +1,7 @@
 """Edits stay in the language whatever the grammar, and annealing over them finds what it should."""
 
+from collections import Counter
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -44,6 +46,7 @@ KINDS = (
     "replace",
     "splice",
     "move",
+    "shift",
     "regenerate",
     "exchange",
     "enclose",
@@ -92,6 +95,19 @@ def test_an_inserted_item_is_of_a_kind_that_fits_its_place():
     for template in longer:
         (changed,) = edits.site(edits.short.complete(template, rng)).rows
         assert len(changed.items) == len(row.items) + 1
+
+
+def test_a_shift_moves_the_border_of_a_row_and_loses_no_leaf():
+    edits, rng = EDITS["nested"], np.random.default_rng(0)
+    shifted = 0
+    for _ in range(500):
+        site = edits.site(edits.sample(rng))
+        found = edits.kinds["shift"](site, site, rng)
+        if found is not None:
+            before, after = edits.states.tree(site.tree.steps), edits.states.tree(found)
+            assert Counter(leaves(after)) == Counter(leaves(before))
+            shifted += after != before
+    assert shifted > 20
 
 
 @pytest.mark.parametrize("name", EDITS)
@@ -150,8 +166,8 @@ def run(make, value, episodes=3_000, batch=1):
 class Annealed:
     """Rounds without end."""
 
-    def __init__(self, context, edits):
-        self.search = AnnealedSearch(context, edits, 1_000)
+    def __init__(self, context, edits, length=1_000):
+        self.search = AnnealedSearch(context, edits, length)
 
     def batches(self, width):
         while True:
@@ -166,6 +182,13 @@ def test_annealing_finds_the_goal(batch):
     strategy, spent = run(Annealed, lambda tree, _: likeness(tree), batch=batch)
     assert strategy.candidates(1) == (GOAL,)
     assert len({proposal.derivation for proposal in spent}) == len(spent)
+
+
+def test_the_last_rounds_begin_from_the_best_trees():
+    strategy, _ = run(lambda *given: Annealed(*given, length=100), lambda tree, _: likeness(tree), episodes=2_000)
+    search = strategy.search
+    assert search.rounds > 3
+    assert search.elites[0].derivation in search.begun
 
 
 class Raced:

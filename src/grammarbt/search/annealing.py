@@ -22,16 +22,17 @@ from grammarbt.search.site import Site
 
 FIRST_TREES = 50
 ELITES = 5
-FIRST_ROUND = 1_200
-"""Episodes in which the first round cools down, where no number is given."""
-GROWTH = 1.4
-"""How much longer each round is than the one before: most rounds are short, and some are long enough for what is hard."""
-SHARE_OF_FIRST = 1 / 4
-"""Share of the budget that the first round takes at most."""
+LONGEST_FIRST_ROUND = 3_000
+SHARE_OF_FIRST = 1 / 16
+"""Share of the budget that the first round takes at most, where no number is given: there is room for five or more."""
+GROWTH = 1.1
+"""How much longer each round is than the one before, which counts where there is room for many."""
 AGAIN_EVERY = 3
-"""Every how many rounds one begins from the best elite instead of a random tree."""
+"""Every how many rounds one begins from one of the best trees instead of a random one."""
+EXPLORING = 0.8
+"""Share of the budget after which all do."""
 AGAIN = 1 / 4
-"""How much cooler it begins then."""
+"""How much cooler they begin then."""
 COOL = 1 / 16
 """How much cooler than the beginning of a round the search around its best tree begins, each time."""
 COOL_LENGTH = 1 / 2
@@ -78,7 +79,8 @@ class AnnealedSearch:
     ) -> None:
         self.rng = context.rng
         self.edits = edits
-        self.round_episodes = round_episodes or max(1, min(FIRST_ROUND, round(SHARE_OF_FIRST * context.budget)))
+        self.round_episodes = round_episodes or max(1, min(LONGEST_FIRST_ROUND, round(SHARE_OF_FIRST * context.budget)))
+        self.exploring = EXPLORING * context.budget
         self.start = start
         self.values: dict[Derivation, float] = {}
         self.reached = ReachedTrees(context.depends_on)
@@ -92,19 +94,25 @@ class AnnealedSearch:
 
     def round(self, width: Width) -> Batches[Place]:
         """Cool down, then search around what came of it as long as that gains; gives the best place."""
-        again = self.rounds % AGAIN_EVERY == AGAIN_EVERY - 1 and self.elites[0].derivation not in self.begun
         before = self.simulated
-        first = self.elites[0] if again else (yield from self._first(width))
+        elite = self._elite()
+        first = elite or (yield from self._first(width))
         self.begun.add(first.derivation)
-        best = yield from self._anneal(first, AGAIN if again else 1.0, self.round_episodes, width)
+        best = yield from self._anneal(first, AGAIN if elite else 1.0, self.round_episodes, width)
         best = yield from self._polish(best)
-        best = yield from self._search_around(best, width)
+        best = yield from self._search_around(best, width, [place.site for place in self.elites] if elite else [])
         best = yield from self._polish(best)
         self.rounds += 1
         if self.simulated - before >= self.round_episodes:  # in a small language, longer rounds would find nothing new
             self.round_episodes = round(GROWTH * self.round_episodes)
         self.elites = sorted([*self.elites, best], key=lambda place: -place.value)[:ELITES]
         return best
+
+    def _elite(self) -> Place | None:
+        """The best tree that no round began from, if it is time to make the most of what was found."""
+        if self.simulated < self.exploring and self.rounds % AGAIN_EVERY < AGAIN_EVERY - 1:
+            return None
+        return next((elite for elite in self.elites if elite.derivation not in self.begun), None)
 
     def _first(self, width: Width) -> Batches[Place]:
         """The start tree, once, or the best of some random trees."""
@@ -124,9 +132,8 @@ class AnnealedSearch:
     def _place(self, derivation: Derivation, value: float) -> Place:
         return Place(derivation, self.edits.site(derivation), value)
 
-    def _search_around(self, best: Place, width: Width) -> Batches[Place]:
-        """Cool down from the best, borrowing from elites, as long as that gains; around each best but once."""
-        others = [elite.site for elite in self.elites]
+    def _search_around(self, best: Place, width: Width, others: Sequence[Site]) -> Batches[Place]:
+        """Cool down from the best, which may borrow from others, as long as that gains; around each best but once."""
         length = round(COOL_LENGTH * self.round_episodes)
         in_vain = 0
         while in_vain < COOL_TIMES and best.derivation not in self.searched:

@@ -39,6 +39,6 @@ class ClimbParameters:
         validator=validators.optional(validators.ge(1)),
         metadata={
             "help": "where one episode tells a tree's worth: episodes in which the first round of annealing cools down; later "
-            "rounds are longer; unset: 1,200, but no more than a quarter of the budget"
+            "rounds are longer; unset: a sixteenth of the budget, but no more than 3,000"
         },
     )

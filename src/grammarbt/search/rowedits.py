@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TypeAlias
 
 import numpy as np
+from attrs import evolve
 
 from grammarbt.search.derivations import Template
 from grammarbt.search.moves import pick
@@ -12,9 +14,12 @@ from grammarbt.search.rows import Item, Row
 from grammarbt.search.short import ShortFirst
 from grammarbt.search.site import Edit, Site, Sites, below, row_of
 
+Items: TypeAlias = tuple[Item, ...]
+
 LONGEST_SEGMENT = 3
 ACROSS = 0.4
 """Chance that a moved item goes to another row."""
+EVEN = 0.5
 KEEP = 0.3
 """Chance that what is derived around a segment keeps its own items too."""
 
@@ -40,6 +45,7 @@ class RowEdits:
             self.replace: 1.5,
             self.move: 1.5,
             self.copy: 1.0,
+            self.shift: 1.5,
             self.enclose: 1.5,
             self.splice: 0.7,
             self.convert: 0.7,
@@ -132,6 +138,22 @@ class RowEdits:
         steps = site.tree.steps
         return (*steps[: first.node], *before, *steps[first.end : second.node], *behind, *steps[second.end :])
 
+    def shift(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:
+        """The border of a row moves: a few items go out to the row around it, or come in from there, in the same order."""
+        inner = row_of(site, rng)
+        around = [(row, at) for row in site.rows for at in range(len(row.items)) if inner and row.holds(at, inner.node)]
+        if inner is None or not around:
+            return None
+        outer, at = pick(around, rng)
+        before, own, after = _border_moved(outer.items[:at], inner.items, outer.items[at + 1 :], rng)
+        part = self.rows.written(inner, own)
+        if part is None:
+            return None
+        start, item = outer.starts[at], outer.items[at]
+        steps, end = site.tree.steps, start + len(item.content)
+        changed = evolve(item, content=(*steps[start : inner.node], *part, *steps[inner.end : end]))
+        return site.rewritten(outer, self.rows.written(outer, [*before, changed, *after]))
+
     def enclose(self, site: Site, _: Site, rng: np.random.Generator) -> Template | None:
         """A new item around a few neighbours in a row."""
         row = row_of(site, rng)
@@ -165,3 +187,14 @@ class RowEdits:
         at = below(len(row.items) + 1, rng)
         cut = (at, at) if rng.random() < KEEP else (0, len(row.items))
         return self.spliced(site, row, cut, kept) if kept else None
+
+
+def _border_moved(before: Items, own: Items, after: Items, rng: np.random.Generator) -> tuple[Items, Items, Items]:
+    """A few items more, or less, of a line for its middle part, at one of its two borders."""
+    few = 1 + below(LONGEST_SEGMENT, rng)
+    more = few if rng.random() < EVEN else -few
+    if rng.random() < EVEN:
+        line, cut = (*own, *after), max(0, len(own) + more)
+        return before, line[:cut], line[cut:]
+    line, cut = (*before, *own), max(0, len(before) - more)
+    return line[:cut], line[cut:], after

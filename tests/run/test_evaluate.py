@@ -92,6 +92,18 @@ def test_a_tree_with_a_foreign_leaf_is_invalid(lamps, proposal):
     assert "dance" in evaluation.error
 
 
+def test_a_simulator_may_answer_in_the_same_arrays_each_time(broken, proposal):
+    returns, ticks = np.zeros(1), np.zeros(1, dtype=np.int64)
+
+    def simulate(policy, _):
+        returns[:], ticks[:] = policy.tree == proposal("[light left]").tree, 7 + returns[0]
+        return Outcome(returns, ticks)
+
+    evaluator = Evaluator(broken(simulate), seed=0)
+    trials = evaluator.evaluate([proposal("[light left]"), proposal("[light right]")], 10)
+    assert [trial.evaluation.returns for trial in trials] == [(1.0,), (0.0,)]
+
+
 def test_an_interruption_passes_through(broken, proposal):
     def interrupted(_policy, _scenarios):
         raise KeyboardInterrupt

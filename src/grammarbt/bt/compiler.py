@@ -51,10 +51,6 @@ def compile_steps(tree: BehaviorTree) -> Steps:
     Raises:
         DomainError: it needs more than `MAX_STEPS` steps, as nested parallel nodes may.
     """
-    return _compiled(tree)
-
-
-def _compiled(tree: BehaviorTree) -> Steps:
     compiler = _Compiler()
     first = compiler.compile(tree, SUCCESS, FAILURE, RUNNING)
     if len(compiler.steps) > MAX_STEPS:

@@ -56,11 +56,11 @@ def simulate_tree(domain: Domain, tree: BehaviorTree, scenarios: Scenarios) -> S
 def simulate_trees(domain: Domain, jobs: Iterable[tuple[BehaviorTree, Scenarios]]) -> list[Simulation]:
     """The same for several trees, each with its scenarios.
 
-    All trees are compiled first and all answers checked last: done in a row, both take less time than between episodes.
+    All are compiled first, which in a row takes less time than between episodes. Answers are read at once: the next one may
+    stand in the same arrays.
     """
     policies = [(_policy(domain, tree), scenarios) for tree, scenarios in jobs]
-    answers = [(policy, scenarios, _answer(domain, policy, scenarios)) for policy, scenarios in policies]
-    return [_checked(*answer) for answer in answers]
+    return [_checked(policy, scenarios, _answer(domain, policy, scenarios)) for policy, scenarios in policies]
 
 
 def _policy(domain: Domain, tree: BehaviorTree) -> Policy | Simulation:

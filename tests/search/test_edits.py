@@ -156,7 +156,11 @@ def run(make, value, episodes=3_000, batch=1):
     while len(spent) < episodes:
         spent += asked
         told = [
-            Evaluation(each, tuple(value(each.tree, scenario) for scenario in range(each.start, each.stop)))
+            Evaluation(
+                each,
+                tuple(value(each.tree, scenario) for scenario in range(each.start, each.stop)),
+                (1,) * len(leaves(each.tree)),
+            )
             for each in asked
         ]
         asked = batches.send(told)
@@ -189,6 +193,18 @@ def test_the_last_rounds_begin_from_the_best_trees():
     search = strategy.search
     assert search.rounds > 3
     assert search.elites[0].derivation in search.begun
+
+
+def test_what_costs_no_budget_makes_no_round_shorter():
+    context = SearchContext(bound("nested"), VOCABULARY, np.random.default_rng(2), 2_000)
+    search = AnnealedSearch(context, Edits(context.grammar), 100)
+    batches = search.round(lambda: 1)
+    asked = next(batches)
+    for known in (True, False):
+        before = search.simulated
+        ticks = () if known else (1,) * len(leaves(asked[0].tree))
+        asked = batches.send([Evaluation(asked[0], (1.0,), ticks)])
+        assert search.simulated == before + (not known)
 
 
 class Raced:

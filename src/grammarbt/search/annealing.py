@@ -13,7 +13,7 @@ from attrs import frozen
 
 from grammarbt.bt import BehaviorTree
 from grammarbt.grammar import Derivation
-from grammarbt.search.base import Proposal, SearchContext
+from grammarbt.search.base import Evaluation, Proposal, SearchContext
 from grammarbt.search.batches import Batches, Width
 from grammarbt.search.edits import Edits
 from grammarbt.search.fame import HallOfFame
@@ -203,7 +203,7 @@ class AnnealedSearch:
                 self.values[derivation] = evaluation.mean
                 self.fame.add(tree, evaluation.returns)
                 self.reached.add(tree, evaluation.ticks)
-            self.simulated += len(fresh)
+                self.simulated += _was_simulated(evaluation)
         return [self.values[derivation] for derivation in derivations]
 
     def _fresh(self, derivations: Sequence[Derivation]) -> dict[Derivation, BehaviorTree]:
@@ -226,3 +226,8 @@ class AnnealedSearch:
     def metrics(self) -> Mapping[str, float]:
         """Trees simulated, copies that were not, rounds, and moves made."""
         return {"trees": self.simulated, "copies": self.copies, "restarts": self.rounds, "accepted": self.accepted}
+
+
+def _was_simulated(evaluation: Evaluation) -> bool:
+    """Where a tree that behaves alike was simulated before, only returns are told, and no budget is spent."""
+    return bool(evaluation.ticks) or evaluation.status != "ok"

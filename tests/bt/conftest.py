@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+
 import pytest
 from hypothesis import strategies as st
 
@@ -103,3 +107,22 @@ def _interpret_parallel(parts, successes, answer):
         if seen.count(Status.FAILURE) > len(parts) - successes:
             return Status.FAILURE
     return Status.RUNNING
+
+
+@pytest.fixture
+def printed():
+    """What a program prints in processes that hash differently."""
+
+    def run(program):
+        return {
+            subprocess.run(
+                [sys.executable, "-c", program],
+                env={**os.environ, "PYTHONHASHSEED": seed},
+                capture_output=True,
+                text=True,
+                check=True,
+            ).stdout.strip()
+            for seed in ("1", "2")
+        }
+
+    return run

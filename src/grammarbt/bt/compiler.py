@@ -23,7 +23,7 @@ SUCCESS, FAILURE, RUNNING = -1, -2, -3
 MAX_STEPS = 100_000
 
 _RECENT = 256
-"""Trees whose steps are kept: a tree is asked for its fingerprint, and soon after for its policy."""
+"""Trees whose steps are kept: a tree is asked for its fingerprint, and, when its batch has been, for its policy."""
 
 Step: TypeAlias = tuple[Leaf, int, int, int, int]
 """A leaf, its occurrence less the number of all leaves, and the steps that follow its success, failure and running."""
@@ -55,7 +55,7 @@ def compile_steps(tree: BehaviorTree) -> Steps:
     first = compiler.compile(tree, SUCCESS, FAILURE, RUNNING)
     if len(compiler.steps) > MAX_STEPS:
         raise _too_many()
-    steps = Steps(compiler.steps, first, compiler.occurrences)
+    steps = Steps(compiler.steps, first, -compiler.behind)
     return _reachable(steps) if compiler.copied else steps
 
 
@@ -84,35 +84,31 @@ class _Compiler:
 
     Attributes:
         steps: so far.
-        copied: whether there was a parallel node, of whose children copies are made; before that, leaves and steps are one.
-        behind: minus the number of leaves from the present one to the tree's end, once there was.
+        behind: minus the number of leaves from the present one to the tree's end.
+        copied: whether there is a parallel node, of whose children copies are made.
     """
 
     def __init__(self) -> None:
         self.steps: list[Step] = []
         self.behind = 0
         self.copied = False
-        self._ways = self._WAYS
+        self._copying = False
         self._known: dict[tuple[int, int, int, int], int] = {}
         self._unrolled: dict[tuple[int, int, int, int, int], tuple[int, int]] = {}
 
-    @property
-    def occurrences(self) -> int:
-        """Leaves so far."""
-        return -self.behind if self.copied else len(self.steps)
-
     def compile(self, node: Node, success: int, failure: int, running: int) -> int:
         """The step at which ticking `node` starts, when its answers lead to the given steps."""
-        return self._ways[type(node)](self, node, success, failure, running)
+        return self._WAYS[type(node)](self, node, success, failure, running)
 
     def _leaf(self, leaf: Leaf, success: int, failure: int, running: int) -> int:
-        at = len(self.steps)
-        self.steps.append((leaf, ~at, success, failure, running))
-        return at
+        self.behind -= 1
+        if self._copying:
+            return self._copy(leaf, success, failure, running)
+        self.steps.append((leaf, self.behind, success, failure, running))
+        return len(self.steps) - 1
 
     def _copy(self, leaf: Leaf, success: int, failure: int, running: int) -> int:
         """Children of parallel nodes meet the same continuations again and again."""
-        self.behind -= 1
         key = (self.behind, success, failure, running)
         at = self._known.get(key)
         if at is None:
@@ -124,12 +120,12 @@ class _Compiler:
 
     def _sequence(self, node: Sequence, success: int, failure: int, running: int) -> int:
         for child in reversed(node.children):
-            success = self._ways[type(child)](self, child, success, failure, running)
+            success = self._WAYS[type(child)](self, child, success, failure, running)
         return success
 
     def _fallback(self, node: Fallback, success: int, failure: int, running: int) -> int:
         for child in reversed(node.children):
-            failure = self._ways[type(child)](self, child, success, failure, running)
+            failure = self._WAYS[type(child)](self, child, success, failure, running)
         return failure
 
     def _not(self, node: Not, success: int, failure: int, running: int) -> int:
@@ -137,11 +133,11 @@ class _Compiler:
 
     def _parallel(self, node: Parallel, success: int, failure: int, running: int) -> int:
         """So do nested parallel nodes; each is unrolled once."""
-        if not self.copied:
-            self.behind, self.copied, self._ways = -len(self.steps), True, self._COPYING
         key = (id(node), self.behind, success, failure, running)  # the tree outlives the compiler, so ids stay
         if key not in self._unrolled:
+            outside, self._copying, self.copied = self._copying, True, True
             start = self._unroll(node, success, failure, running)
+            self._copying = outside
             self._unrolled[key] = (start, self.behind)
         start, self.behind = self._unrolled[key]
         return start
@@ -173,9 +169,4 @@ class _Compiler:
         Fallback: _fallback,
         Not: _not,
         Parallel: _parallel,
-    }
-    _COPYING: ClassVar[Mapping[type[Node], Callable[[_Compiler, Any, int, int, int], int]]] = {
-        **_WAYS,
-        Action: _copy,
-        Condition: _copy,
     }

@@ -59,16 +59,15 @@ class Fingerprints:
         Raises:
             DomainError: nested parallel nodes need more than `MAX_STEPS` steps.
         """
-        steps = compile_steps(tree)
         try:
-            number, _, _ = self._start(steps)
+            number, _, _ = self._start(compile_steps(tree))
         except TooLargeError:
-            number, _, _ = Fingerprints(none_pure)._start(steps)  # noqa: SLF001 - of the same class
+            return Fingerprints(none_pure)(tree)
         return number.to_bytes(_BYTES, "big")
 
     def _start(self, steps: Steps) -> Node:
         """What a tick does from the first step on."""
-        nodes = [_NOWHERE] * len(steps.steps) + self._ends  # ends at -3, -2 and -1, as steps name them
+        nodes = self._ends[:1] * len(steps.steps) + self._ends  # ends at -3, -2 and -1, as steps name them
         signs = self._signs
         for at, (leaf, _, success, failure, running) in enumerate(steps.steps):
             text = leaf.text
@@ -141,6 +140,3 @@ def _call(leaf: bytes, success: int, failure: int, running: int) -> Node:
     """A leaf, and what follows its answers, as a number that looks random and depends on these alone."""
     data = b"%b\n%x\n%x\n%x" % (leaf, success, failure, running)
     return int.from_bytes(blake2b(data, digest_size=_CALL_BYTES).digest(), "big"), 0, None
-
-
-_NOWHERE: Node = (0, 0, None)

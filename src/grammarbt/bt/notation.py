@@ -67,22 +67,8 @@ def _write_leaf(leaf: Leaf, words: list[str]) -> None:
     words.append(leaf.text)
 
 
-def _write_fallback(node: Fallback, words: list[str]) -> None:
-    words.append("?(")
-    _write_children(node, words)
-
-
-def _write_sequence(node: Sequence, words: list[str]) -> None:
-    words.append("→(")
-    _write_children(node, words)
-
-
-def _write_parallel(node: Parallel, words: list[str]) -> None:
-    words.append(f"‖{node.successes}(")
-    _write_children(node, words)
-
-
-def _write_children(node: Control, words: list[str]) -> None:
+def _write_control(node: Control, words: list[str]) -> None:
+    words.append(f"{_SIGNS.get(type(node)) or operator(node)}(")
     for child in node.children:
         _WRITERS[type(child)](child, words)
     words.append(")")
@@ -97,9 +83,9 @@ def _write_not(node: Not, words: list[str]) -> None:
 _WRITERS: Mapping[type[Node], Callable[[Any, list[str]], None]] = {
     Action: _write_leaf,
     Condition: _write_leaf,
-    Fallback: _write_fallback,
-    Sequence: _write_sequence,
-    Parallel: _write_parallel,
+    Fallback: _write_control,
+    Sequence: _write_control,
+    Parallel: _write_control,
     Not: _write_not,
 }
 

@@ -186,7 +186,7 @@ class Evaluator:
             task.finish(task.simulation or (next(fresh) if task.missing else _NOTHING))
 
     def _numbers(self, missing: Sequence[int]) -> Scenarios:
-        if isinstance(missing, range):
+        if isinstance(missing, range):  # nearly always, and twice as fast
             return np.arange(self._first + missing.start, self._first + missing.stop, dtype=np.int64)
         return np.array([self._first + number for number in missing], dtype=np.int64)
 

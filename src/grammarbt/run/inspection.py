@@ -22,7 +22,7 @@ from grammarbt.domain import FIRST_VALIDATION_SCENARIO, Domain, Scenarios, Watch
 from grammarbt.errors import DomainError
 from grammarbt.run.ablate import Ablator
 from grammarbt.run.score import Validator
-from grammarbt.run.simulate import simulate_tree
+from grammarbt.run.simulate import simulate
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -141,7 +141,7 @@ def _answers(policy: Policy, domain: Watchable, scenario: int) -> list[tuple[tup
 
 def _counted(policy: Policy, domain: Domain, scenarios: Scenarios) -> tuple[NodeCount, ...]:
     """Counts from the leaves alone: whatever reaches a control node ticks its first leaf."""
-    simulation = simulate_tree(domain, policy.tree, scenarios)
+    simulation = simulate(domain, policy, scenarios)
     if simulation.status != "ok":
         raise DomainError(f"the domain cannot score the tree: {simulation.error}", "repair the domain")
     counts, occurrence = [], 0

@@ -60,7 +60,10 @@ def simulate_trees(domain: Domain, jobs: Iterable[tuple[BehaviorTree, Scenarios]
     stand in the same arrays.
     """
     policies = [(_policy(domain, tree), scenarios) for tree, scenarios in jobs]
-    return [_checked(policy, scenarios, _answer(domain, policy, scenarios)) for policy, scenarios in policies]
+    return [
+        policy if isinstance(policy, Simulation) else simulate(domain, policy, scenarios)
+        for policy, scenarios in policies
+    ]
 
 
 def _policy(domain: Domain, tree: BehaviorTree) -> Policy | Simulation:
@@ -71,25 +74,15 @@ def _policy(domain: Domain, tree: BehaviorTree) -> Policy | Simulation:
         return Simulation(status="invalid", error=str(error))
 
 
-def _answer(domain: Domain, policy: Policy | Simulation, scenarios: Scenarios) -> object:
-    """What the simulator gives; whatever it raises becomes the status."""
-    if isinstance(policy, Simulation):
-        return policy
+def simulate(domain: Domain, policy: Policy, scenarios: Scenarios) -> Simulation:
+    """Simulate one episode per scenario; whatever the simulator raises becomes the status."""
     try:
-        return domain.simulate(policy, scenarios)
+        outcome: object = domain.simulate(policy, scenarios)
     except Exception as error:  # noqa: BLE001 - a simulator is foreign code: whatever it raises is this trial's result
         return Simulation(status="failed", error=f"{type(error).__name__}: {error}")
-
-
-def _checked(policy: Policy | Simulation, scenarios: Scenarios, answer: object) -> Simulation:
-    """The numbers of an answer, or what is wrong with it."""
-    if isinstance(policy, Simulation):
-        return policy
-    if isinstance(answer, Simulation):
-        return answer
-    if not isinstance(answer, Outcome):
-        return _invalid(f"a {type(answer).__name__} instead of an Outcome")
-    returns, ticks = np.asarray(answer.returns), np.asarray(answer.ticks)
+    if not isinstance(outcome, Outcome):
+        return _invalid(f"a {type(outcome).__name__} instead of an Outcome")
+    returns, ticks = np.asarray(outcome.returns), np.asarray(outcome.ticks)
     fault = _fault("returns", returns, scenarios.shape) or _fault("ticks", ticks, (policy.occurrences,))
     return _invalid(fault) if fault else Simulation(tuple(returns.tolist()), tuple(ticks.tolist()))
 

@@ -140,7 +140,7 @@ def test_short_trees_come_first():
 
 
 def likeness(tree):
-    """How much of the goal's text is there, less a little for every leaf."""
+    """How much of the goal's text is there, less a little for every leaf: a matter of the tree, not of what it does."""
     wanted, found = format_tree(GOAL).split(), format_tree(tree).split()
     same = 0
     while same < min(len(wanted), len(found)) and wanted[same] == found[same]:
@@ -149,7 +149,7 @@ def likeness(tree):
 
 
 def run(make, value, episodes=3_000, batch=1):
-    context = SearchContext(bound("nested"), VOCABULARY, np.random.default_rng(2), episodes)
+    context = SearchContext(bound("nested"), VOCABULARY, np.random.default_rng(2), episodes, depends_on="tree")
     strategy = make(context, Edits(context.grammar))
     batches = strategy.batches(lambda: batch)
     asked, spent = next(batches), []
@@ -193,6 +193,13 @@ def test_the_last_rounds_begin_from_the_best_trees():
     search = strategy.search
     assert search.rounds > 3
     assert search.elites[0].derivation in search.begun
+
+
+def test_a_tree_is_among_the_best_once_and_rounds_may_begin_from_it_again():
+    strategy, _ = run(lambda *given: Annealed(*given, length=50), lambda tree, _: likeness(tree), episodes=4_000)
+    search = strategy.search
+    assert len({elite.derivation for elite in search.elites}) == len(search.elites)
+    assert search.begun[search.elites[0].derivation] > 1
 
 
 def test_what_costs_no_budget_makes_no_round_shorter():

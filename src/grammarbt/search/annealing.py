@@ -5,6 +5,7 @@ Kirkpatrick, Gelatt & Vecchi, "Optimization by Simulated Annealing" (Science, 19
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from math import exp, isfinite
 
@@ -27,12 +28,10 @@ SHARE_OF_FIRST = 1 / 16
 """Share of the budget that the first round takes at most, where no number is given: there is room for five or more."""
 GROWTH = 1.1
 """How much longer each round is than the one before, which counts where there is room for many."""
-AGAIN_EVERY = 3
+AGAIN_EVERY = 2
 """Every how many rounds one begins from one of the best trees instead of a random one."""
 EXPLORING = 0.8
 """Share of the budget after which all do."""
-AGAIN = 1 / 4
-"""How much cooler they begin then."""
 COOL = 1 / 16
 """How much cooler than the beginning of a round the search around its best tree begins, each time."""
 COOL_LENGTH = 1 / 2
@@ -87,7 +86,7 @@ class AnnealedSearch:
         self.fame = HallOfFame()
         self.elites: list[Place] = []
         self.losses: list[float] = []
-        self.begun: set[Derivation] = set()
+        self.begun: Counter[Derivation] = Counter()
         self.searched: set[Derivation] = set()
         self.hot = self.cold = self.price = 0.0
         self.simulated = self.copies = self.rounds = self.accepted = 0
@@ -97,22 +96,23 @@ class AnnealedSearch:
         before = self.simulated
         elite = self._elite()
         first = elite or (yield from self._first(width))
-        self.begun.add(first.derivation)
-        best = yield from self._anneal(first, AGAIN if elite else 1.0, self.round_episodes, width)
+        self.begun[first.derivation] += 1
+        best = yield from self._anneal(first, 1.0, self.round_episodes, width)
         best = yield from self._polish(best)
         best = yield from self._search_around(best, width, [place.site for place in self.elites] if elite else [])
         best = yield from self._polish(best)
         self.rounds += 1
         if self.simulated - before >= self.round_episodes:  # in a small language, longer rounds would find nothing new
             self.round_episodes = round(GROWTH * self.round_episodes)
-        self.elites = sorted([*self.elites, best], key=lambda place: -place.value)[:ELITES]
+        if all(best.derivation != elite.derivation for elite in self.elites):
+            self.elites = sorted([*self.elites, best], key=lambda place: -place.value)[:ELITES]
         return best
 
     def _elite(self) -> Place | None:
-        """The best tree that no round began from, if it is time to make the most of what was found."""
+        """The best of those that the fewest rounds began from, if it is time to make the most of what was found."""
         if self.simulated < self.exploring and self.rounds % AGAIN_EVERY < AGAIN_EVERY - 1:
             return None
-        return next((elite for elite in self.elites if elite.derivation not in self.begun), None)
+        return min(self.elites, key=lambda elite: (self.begun[elite.derivation], -elite.value), default=None)
 
     def _first(self, width: Width) -> Batches[Place]:
         """The start tree, once, or the best of some random trees."""

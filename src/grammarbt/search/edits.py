@@ -23,8 +23,10 @@ from grammarbt.search.states import States
 from grammarbt.search.subtreeedits import SubtreeEdits
 
 SHORTNESS = 0.7
+NOVELTY = 0.5
+"""Share of the edits whose new sub-trees are to bring something that the derivation does not have yet."""
 NOVEL_DRAWS = 3
-"""Further draws of a new sub-tree that brings nothing but what the derivation has already."""
+"""Further draws of one that does not."""
 FURTHER_EDIT = 0.35
 MOST_EDITS = 4
 
@@ -75,12 +77,12 @@ class Edits:
         return None if found == first.tree.steps else found
 
     def _edited(self, edit: Edit, site: Site, other: Site, rng: np.random.Generator) -> Derivation | None:
-        """Fill open places, rather by productions that the derivation does not have yet."""
+        """Fill open places, some rather by productions that the derivation does not have yet."""
         template = edit(site, other, rng)
         if template is None:
             return None
         found = self.short.complete(template, rng)
-        for _ in range(NOVEL_DRAWS if None in template else 0):
+        for _ in range(NOVEL_DRAWS if None in template and rng.random() < NOVELTY else 0):
             if found is None or not site.uses.issuperset(found):
                 break
             found = self.short.complete(template, rng)

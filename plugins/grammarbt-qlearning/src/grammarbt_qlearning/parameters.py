@@ -54,7 +54,7 @@ class QLearningParameters:
         metadata={"help": "share of the budget after which epsilon has come down"},
     )
     imitation: float = field(
-        default=0.8,
+        default=0.5,
         validator=_share,
         metadata={
             "help": "table=productions: share of the derivations that repeat the best tree, but for one decision"

@@ -81,7 +81,7 @@ def test_what_is_learned_of_a_leaf_depends_on_its_place():
     """An `a` pays in the first place and a `b` in the second: one value per action, whatever its place, learns neither."""
     pair = bind(load_grammar(Source("pair.grammar", PAIR)), VOCABULARY)
     context = SearchContext(pair, VOCABULARY, np.random.default_rng(0), 300)
-    searcher = QLearning(context, QLearningParameters(view="place"))
+    searcher = QLearning(context, QLearningParameters(view="place", imitation=0.0))
     seen = []
     for _ in range(300):
         asked = searcher.ask(1)

@@ -18,7 +18,7 @@ from grammarbt.search import Evaluation, EvaluationStatus
 from grammarbt.testing.subjects import SearcherSubject
 from grammarbt.testing.trials import TrialRun
 from grammarbt.testing.verdicts import Check, NonconformityError, require, untouched_randomness
-from grammarbt.testing.worlds import FINITE, INFINITE, TINY, Lamps
+from grammarbt.testing.worlds import INFINITE
 
 _WIDTHS = (1, 7, 32)
 _FEW = 5
@@ -27,7 +27,7 @@ _JOURNAL = "journal.jsonl"
 
 def check_proposals_are_words_of_the_language(subject: SearcherSubject) -> str | None:
     """Every proposal is a tree of the language, and its derivation, where it gives one, derives it."""
-    run = TrialRun.of(subject, FINITE)
+    run = TrialRun.of(subject)
     for proposal in run.go(subject.budget):
         _require_word(run, proposal.tree, "proposed")
         if proposal.derivation is not None:
@@ -43,7 +43,7 @@ def check_proposals_are_words_of_the_language(subject: SearcherSubject) -> str |
 def check_asks_for_no_more_than_wanted(subject: SearcherSubject) -> str | None:
     """`ask(n)` gives at most n proposals, each of some scenarios, whatever n is."""
     for width in _WIDTHS:
-        run = TrialRun.of(subject, FINITE)
+        run = TrialRun.of(subject)
         for proposals in run.batches(subject.budget, width):
             require(
                 len(proposals) <= width,
@@ -61,7 +61,7 @@ def check_asks_for_no_more_than_wanted(subject: SearcherSubject) -> str | None:
 
 def check_candidates_are_trees_it_believes_in(subject: SearcherSubject) -> str | None:
     """After a search `candidates(n)` gives 1 to n different trees of the language, and metrics are numbers."""
-    run = TrialRun.of(subject, FINITE)
+    run = TrialRun.of(subject)
     list(run.go(subject.budget))
     found = list(run.searcher.candidates(_FEW))
     require(
@@ -79,7 +79,7 @@ def check_candidates_are_trees_it_believes_in(subject: SearcherSubject) -> str |
 def check_copes_with_failed_evaluations(subject: SearcherSubject) -> str | None:
     """A simulator that fails with every third tree does not stop the search."""
     for status in get_args(EvaluationStatus)[1:]:
-        run = TrialRun.of(subject, FINITE)
+        run = TrialRun.of(subject)
         proposed = sum(1 for _ in run.go(subject.budget, partial(_failing, status)))
         require(
             proposed > _FEW,
@@ -97,7 +97,7 @@ def check_copes_with_failed_evaluations(subject: SearcherSubject) -> str | None:
 def check_copes_with_constant_returns(subject: SearcherSubject) -> str | None:
     """Where every tree returns the same, no division by a spread of zero stops the search."""
     for value in (0.0, -7.5, 1e9):
-        run = TrialRun.of(subject, FINITE)
+        run = TrialRun.of(subject)
         for _ in run.go(subject.budget, constant=value):
             pass
         require(
@@ -117,10 +117,10 @@ def check_copes_with_an_infinite_language(subject: SearcherSubject) -> str | Non
 
 
 def check_comes_to_an_end(subject: SearcherSubject) -> str | None:
-    """In a language of nine words it says that nothing is left, or repeats itself at no cost; it never hangs."""
+    """In a language of few words it says that nothing is left, or repeats itself at no cost; it never hangs."""
     with tempfile.TemporaryDirectory() as folder:
         grammar = Path(folder) / "tiny.grammar"
-        grammar.write_text(TINY, encoding="utf-8")
+        grammar.write_text(subject.tiny, encoding="utf-8")
         subject.run(Path(folder) / "run", "--grammar", str(grammar), "--budget", "1000", "--trials", "20000")
     return None
 
@@ -160,15 +160,15 @@ def check_replay_equals_one_go(subject: SearcherSubject) -> str | None:
 def check_global_randomness_is_untouched(subject: SearcherSubject) -> str | None:
     """All randomness comes from the generator in the context."""
     with untouched_randomness("it", "use context.rng alone"):
-        for _ in TrialRun.of(subject, FINITE).go(subject.budget):
+        for _ in TrialRun.of(subject).go(subject.budget):
             pass
     return None
 
 
 def check_begins_from_the_start_tree(subject: SearcherSubject) -> str | None:
     """A start tree is among the first trees proposed."""
-    start = parse(Lamps.references[0].tree)
-    run = TrialRun.of(subject, FINITE, start)
+    start = parse(subject.domain.references[0].tree)
+    run = TrialRun.of(subject, start=start)
     first = [proposal.tree for proposal in run.go(min(subject.budget, 100))]
     require(
         start in first,

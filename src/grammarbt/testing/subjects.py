@@ -17,10 +17,10 @@ from attrs import field, frozen
 
 from grammarbt.bt import BehaviorTree, compile_policy, format_tree, parse
 from grammarbt.domain import Domain, Outcome, Scenarios, scenario_numbers
-from grammarbt.grammar import BoundGrammar, bind, load_grammar
+from grammarbt.grammar import BoundGrammar, Source, bind, load_grammar
 from grammarbt.plugins import PluginHost, PluginOptions, Registry
 from grammarbt.testing.verdicts import NonconformityError
-from grammarbt.testing.worlds import Lamps
+from grammarbt.testing.worlds import TINY, Lamps
 
 if TYPE_CHECKING:
     from grammarbt.search import SearchContext, Searcher
@@ -114,17 +114,32 @@ class SearcherSubject:
         settings: its parameters.
         budget: episodes of each trial run.
         seconds: how long one trial run may take.
+        world: the domain of the trial runs, by name or as `FILE.py:NAME`, for a searcher whose trees the usual one's
+            grammar does not derive. Its simulations are quick and never fail; its first reference is in its grammar.
+        tiny: the text of a grammar of few words, for that domain.
     """
 
     name: str
     settings: Mapping[str, object] = field(factory=dict)
     budget: int = 300
     seconds: float = 60.0
+    world: str = _WORLD
+    tiny: str = TINY
 
     @cached_property
     def registry(self) -> Registry:
-        """Makes the searcher."""
+        """Makes the searcher, and its world."""
         return open_registry()
+
+    @cached_property
+    def domain(self) -> Domain:
+        """The world of the trial runs."""
+        return self.registry.make_domain(self.world, {})
+
+    @cached_property
+    def grammar(self) -> Source:
+        """The world's own grammar."""
+        return self.registry.own_grammar(self.domain, self.world)
 
     def make(self, context: SearchContext) -> Searcher:
         """A new instance."""
@@ -138,13 +153,13 @@ class SearcherSubject:
             return {path.name: path.read_bytes() for path in sorted(out.iterdir()) if path.is_file()}
 
     def run(self, out: Path, *arguments: str, hash_seed: int = 0) -> Path:
-        """Run the searcher on the lamps in a new Python process; gives the run's folder.
+        """Run the searcher on its world in a new Python process; gives the run's folder.
 
         Raises:
             NonconformityError: the run failed, or took longer than `seconds`.
         """
         settings = [word for key, value in self.settings.items() for word in ("--set", f"searcher.{key}={value}")]
-        common = ["--domain", _WORLD, "--searcher", self.name, "--budget", str(self.budget), "--validation", "2"]
+        common = ["--domain", self.world, "--searcher", self.name, "--budget", str(self.budget), "--validation", "2"]
         self.command_line(["run", *common, *settings, *arguments, "--out", str(out), "--json"], hash_seed)
         return out
 

@@ -8,12 +8,11 @@ import numpy as np
 from attrs import define, field
 
 from grammarbt.bt import BehaviorTree, compile_policy
-from grammarbt.domain import scenario_numbers
+from grammarbt.domain import Domain, scenario_numbers
 from grammarbt.grammar import BoundGrammar, Source, bind, load_grammar
 from grammarbt.search import Evaluation, Proposal, SearchContext, Searcher
 from grammarbt.testing.subjects import SearcherSubject
 from grammarbt.testing.verdicts import require
-from grammarbt.testing.worlds import Lamps
 
 _MOST_FREE_BATCHES = 10_000
 """Batches that may cost nothing, since all they ask for is known, before the search is taken to be over."""
@@ -26,23 +25,25 @@ class TrialRun:
     Attributes:
         grammar: the language.
         searcher: the one under test.
+        domain: where trees are simulated.
         episodes: simulated so far.
     """
 
     grammar: BoundGrammar
     searcher: Searcher
-    domain: Lamps = field(factory=Lamps)
+    domain: Domain
     episodes: int = 0
     _known: dict[tuple[BehaviorTree, int], float] = field(factory=dict)
 
     @classmethod
-    def of(cls, subject: SearcherSubject, grammar: str, start: BehaviorTree | None = None) -> TrialRun:
-        """A run that has not begun."""
-        vocabulary = Lamps.vocabulary
-        bound = bind(load_grammar(Source("the test's grammar", grammar)), vocabulary)
+    def of(cls, subject: SearcherSubject, grammar: str | None = None, start: BehaviorTree | None = None) -> TrialRun:
+        """A run that has not begun, by the text of a grammar or else by that of the subject's world."""
+        source = subject.grammar if grammar is None else Source("the test's grammar", grammar)
+        vocabulary = subject.domain.vocabulary
+        bound = bind(load_grammar(source), vocabulary)
         rng = np.random.default_rng(np.random.SeedSequence(0).spawn(1)[0])
         context = SearchContext(bound, vocabulary, rng, subject.budget, start=start)
-        return cls(bound, subject.make(context))
+        return cls(bound, subject.make(context), subject.domain)
 
     def go(
         self,

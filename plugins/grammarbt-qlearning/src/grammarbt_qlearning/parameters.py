@@ -53,6 +53,13 @@ class QLearningParameters:
         validator=[validators.gt(0.0), validators.le(1.0)],
         metadata={"help": "share of the budget after which epsilon has come down"},
     )
+    imitation: float = field(
+        default=0.5,
+        validator=_share,
+        metadata={
+            "help": "table=productions: share of the derivations that repeat the best tree, but for one decision"
+        },
+    )
 
     def chance(self, episodes: int, budget: int) -> float:
         """Epsilon after so many episodes of a budget."""

@@ -67,3 +67,24 @@ def test_the_population_grows_with_the_budget_unless_it_is_given():
     sizes = [EvolutionParameters().size(budget) for budget in (100, 4_000, 10**6)]
     assert sizes == [50, 100, 500]
     assert EvolutionParameters(population=7).size(10**6) == 7
+
+
+@pytest.mark.parametrize(("distinct", "fewest", "most"), [(False, 30, 40), (True, 1, 15)])
+def test_of_equal_means_one_lives_on_where_individuals_are_to_be_distinct(grammars, distinct, fewest, most):
+    rng = np.random.default_rng(0)
+    moves = Moves(grammars["lists"])
+    parameters = EvolutionParameters(population=40, elites=0.9, distinct=distinct)
+    searcher = BatchSearcher("lists", Evolution(Lists(moves, rng), Scorer(moves.states), parameters, 1_000, rng))
+    asked = searcher.ask(100)
+    searcher.tell([Evaluation(proposal, (float(at % 3),) * width(proposal)) for at, proposal in enumerate(asked)])
+    known = {proposal.tree for proposal in asked}
+    assert fewest <= sum(proposal.tree in known for proposal in searcher.ask(100)) <= most
+
+
+def width(proposal):
+    return proposal.stop - proposal.start
+
+
+def test_a_new_population_begins_when_the_best_stays_as_it_is(evolve):
+    restarts = [evolve("lists", 1_500, patience=patience)[0].metrics()["restarts"] for patience in (0, 3)]
+    assert restarts[0] == 0 < restarts[1]

@@ -7,11 +7,9 @@ from hypothesis import strategies as st
 
 from grammarbt.domain import ActionType, ConditionType, Group, Vocabulary
 from grammarbt.grammar import bind, load_grammar, shipped_grammars
-from grammarbt.search import SearchContext, States
+from grammarbt.search import States
 from grammarbt_ge.initialise import Initialiser
 from grammarbt_ge.mapping import CODONS, Mapper
-from grammarbt_ge.parameters import GeParameters
-from grammarbt_ge.search import Genomes
 
 VOCABULARY = Vocabulary(
     (
@@ -66,6 +64,21 @@ def test_codons_that_make_the_same_choices_map_to_the_same_derivation(mappers, d
     assert all(0 <= codon < CODONS for codons in first for codon in codons)
 
 
+@quick
+@given(data=st.data(), length=st.integers(1, 40), seed=st.integers(0, 2**32))
+def test_the_codons_read_are_as_many_as_there_were_choices_and_say_which_step_they_chose(mappers, data, length, seed):
+    mapper, rng = drawn(data, mappers), np.random.default_rng(seed)
+    genome = tuple(tuple(rng.integers(CODONS, size=length).tolist()) for _ in range(mapper.lists))
+    reading, walk = mapper.read(genome), mapper.states.walk()
+    choices = {}
+    for step, production in enumerate(reading.derivation):
+        if len(walk.state.productions) > 1:
+            choices[step] = walk.state.productions.index(production), len(walk.state.productions)
+        walk.take(production)
+    assert [step for step, *_ in reading.codons] == list(choices)
+    assert all(codon % choices[step][1] == choices[step][0] for step, _, codon in reading.codons)
+
+
 def test_a_list_that_is_at_its_end_is_read_again(grammars):
     states = States(grammars["scheide"])
     rng = np.random.default_rng(0)
@@ -90,35 +103,3 @@ def test_later_derivations_grow_deeper(grammars, name):
     made = Initialiser(States(grammars["general"]), 12, np.random.default_rng(0)).derivations(name, 80)
     sizes = [len(derivation) for derivation in made]
     assert np.mean(sizes[:20]) < np.mean(sizes[-20:])
-
-
-def species(grammars, mapping, **parameters):
-    grammar = grammars["scheide"]
-    context = SearchContext(grammar, VOCABULARY, np.random.default_rng(0), 1_000)
-    return Genomes(context, GeParameters(mapping=mapping, **parameters), States(grammar))
-
-
-def test_one_point_crossover_joins_a_head_and_a_tail(grammars):
-    genomes = species(grammars, "linear", flip=0.0, crossover=1.0)
-    one, other = (tuple(range(10)),), (tuple(range(100, 120)),)
-    for _ in range(50):
-        (child,) = genomes.child(one, other)
-        head = [codon for codon in child if codon < 100]
-        tail = [codon for codon in child if codon >= 100]
-        assert list(child) == head + tail
-        assert head == list(range(len(head)))
-        assert tail == list(range(120 - len(tail), 120))
-
-
-def test_structured_crossover_exchanges_whole_lists(grammars):
-    genomes = species(grammars, "structured", flip=0.0, crossover=1.0)
-    one, other = genomes.stranger(), genomes.stranger()
-    child = genomes.child(one, other)
-    assert all(own in pair for own, pair in zip(child, zip(one, other, strict=True), strict=True))
-
-
-def test_as_many_codons_are_drawn_anew_as_asked(grammars):
-    genomes = species(grammars, "linear", flip=0.2, crossover=0.0)
-    one = (tuple(range(200)),)
-    changed = [sum(new != old for new, old in zip(genomes.child(one, one)[0], one[0], strict=True)) for _ in range(50)]
-    assert 30 < np.mean(changed) < 50

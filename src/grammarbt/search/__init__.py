@@ -8,7 +8,7 @@ from grammarbt.search.behaviours import behaviour_of
 from grammarbt.search.blocks import Behaviour, BlockDag, BlockNode, Piece, Stream, piece_of
 from grammarbt.search.climb import Climb
 from grammarbt.search.climbparameters import ClimbParameters
-from grammarbt.search.derivations import Step, block_derivations, complete, leftmost, position_of, rearranged
+from grammarbt.search.derivations import Step, block_derivations, complete, end_of, leftmost, position_of, rearranged
 from grammarbt.search.derivationtree import DerivationTree
 from grammarbt.search.edits import Edits
 from grammarbt.search.evolution import Evolution, EvolutionParameters
@@ -91,6 +91,7 @@ __all__ = [
     "closes",
     "complete",
     "differences",
+    "end_of",
     "judge",
     "leftmost",
     "make_bandit",

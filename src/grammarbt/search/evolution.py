@@ -42,6 +42,15 @@ class EvolutionParameters:
         validator=[validators.ge(0.0), validators.lt(1.0)],
         metadata={"help": "share of a generation, the best for sure, that lives on"},
     )
+    distinct: bool = field(
+        default=False,
+        metadata={"help": "of individuals with equal means only one lives on or breeds, so that no plateau takes over"},
+    )
+    patience: int = field(
+        default=0,
+        validator=validators.ge(0),
+        metadata={"help": "generations without a better best after which a new population begins; 0: never"},
+    )
 
     def size(self, budget: int) -> int:
         """Individuals in a generation."""
@@ -100,23 +109,37 @@ class Evolution(Generic[Genome]):
         self.parameters = parameters
         self.size = parameters.size(budget)
         self.rng = rng
-        self.generations = self.strangers = 0
+        self.generations = self.strangers = self.restarts = 0
 
     def batches(self, width: Width) -> Batches[None]:
         """Generation after generation; ends when no genome can be found that was not simulated yet."""
         del width  # a generation is wide enough
-        first = self.species.first(self.size)
-        genomes = [(self.species.derivation(genome), genome) for genome in first]
+        genomes = self._first()
         while genomes:
             scores = yield from self.scorer.score([derivation for derivation, _ in genomes])
             self.generations += 1
-            genomes = self._next(
-                [Individual(genome, score) for (_, genome), score in zip(genomes, scores, strict=True)]
-            )
+            population = [Individual(genome, score) for (_, genome), score in zip(genomes, scores, strict=True)]
+            genomes = self._first() if self._is_stuck(population) else self._next(population)
+
+    def _first(self) -> list[tuple[Derivation, Genome]]:
+        self._best, self._idle = float("-inf"), 0
+        return [(self.species.derivation(genome), genome) for genome in self.species.first(self.size)]
+
+    def _is_stuck(self, population: Sequence[Individual[Genome]]) -> bool:
+        """Whether too many generations passed without a better best."""
+        best = max(map(self._sure, population))
+        self._idle = 0 if best > self._best else self._idle + 1
+        self._best = max(best, self._best)
+        stuck = 0 < self.parameters.patience <= self._idle
+        self.restarts += stuck
+        return stuck
 
     def _next(self, population: Sequence[Individual[Genome]]) -> list[tuple[Derivation, Genome]]:
         """The elites and their children; nobody if there is nothing new to be found."""
-        best = {one.score.derivation: one.genome for one in sorted(population, key=self._sure)}
+        ranked = sorted(population, key=self._sure)
+        if self.parameters.distinct:
+            population = ranked = list({one.score.mean: one for one in ranked}.values())
+        best = {one.score.derivation: one.genome for one in ranked}
         elites = list(best.items())[::-1][: int(self.parameters.elites * self.size)]
         children: dict[Derivation, Genome] = {}
         while len(children) < self.size - len(elites) and (child := self._new_child(population, children)):
@@ -155,4 +178,5 @@ class Evolution(Generic[Genome]):
             "generations": self.generations,
             "derivations": len(self.scorer.scores),
             "strangers": self.strangers,
+            "restarts": self.restarts,
         }

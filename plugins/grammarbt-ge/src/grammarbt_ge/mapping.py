@@ -7,7 +7,7 @@ from functools import partial
 from typing import Literal, TypeAlias
 
 import numpy as np
-from attrs import define, field
+from attrs import define, field, frozen
 
 from grammarbt.grammar import Derivation
 from grammarbt.search import State, States, Transition
@@ -16,6 +16,9 @@ MappingName: TypeAlias = Literal["linear", "structured"]
 
 Genome: TypeAlias = tuple[tuple[int, ...], ...]
 """Lists of codons: a single one in linear mapping, one per nonterminal in structured mapping."""
+
+ReadCodon: TypeAlias = tuple[int, int, int]
+"""A step of the derivation, a list of the genome, and the codon of that list that chose the step."""
 
 CODONS = 2**16
 """Codons are the numbers below."""
@@ -44,6 +47,19 @@ class Leg:
     above: dict[int, Leg] = field(factory=dict, repr=False)
 
 
+@frozen(slots=True, eq=False)
+class Reading:
+    """What was read of a genome.
+
+    Attributes:
+        derivation: what the genome stands for.
+        codons: in the order read, each with the step of the derivation that it chose, and the list that it is from.
+    """
+
+    derivation: Derivation
+    codons: tuple[ReadCodon, ...]
+
+
 class Mapper:
     """Maps genomes: a codon, modulo the number of legal productions, chooses among them.
 
@@ -68,8 +84,13 @@ class Mapper:
 
     def derivation(self, genome: Genome) -> Derivation:
         """What the genome stands for."""
+        return self.read(genome).derivation
+
+    def read(self, genome: Genome) -> Reading:
+        """What the genome stands for, and what was read to get there."""
         read = [0] * self.lists
         derivation: list[int] = []
+        choices_read: list[ReadCodon] = []
         stack: list[int] = []
         leg = self._first
         while True:
@@ -81,19 +102,19 @@ class Mapper:
                 gene = leg.gene
                 at, codons = read[gene], genome[gene]
                 read[gene] = at + 1
-                choice = codons[at] % len(choices) if at < len(codons) else self._again(codons, at, leg)
+                codon = codons[at] if at < len(codons) else self._again(codons, at, leg)
+                choices_read.append((len(derivation), gene, codon))
+                choice = codon % len(choices)
                 leg = choices[choice] or leg.make(choice)
             elif stack:
                 symbol = stack.pop()
                 leg = leg.above.get(symbol) or leg.make(symbol)
             else:
-                return tuple(derivation)
+                return Reading(tuple(derivation), tuple(choices_read))
 
     def _again(self, codons: tuple[int, ...], at: int, leg: Leg) -> int:
-        """The choice where every codon was read before."""
-        if at < len(codons) * (1 + self.wraps):
-            return codons[at % len(codons)] % len(leg.choices)
-        return leg.shortest
+        """The codon where every one was read before."""
+        return codons[at % len(codons)] if at < len(codons) * (1 + self.wraps) else leg.shortest
 
     def genome(self, derivation: Derivation, rng: np.random.Generator) -> Genome:
         """A genome that maps to the derivation; of all codons that make a choice, any is as likely."""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from grammarbt.grammar import Derivation, parse_tree
-from grammarbt.search import BatchSearcher, Evolution, Scorer, SearchContext, States, pick
+from grammarbt.search import BatchSearcher, Evolution, Scorer, SearchContext, States
+from grammarbt_ge.breeding import Breeder
 from grammarbt_ge.initialise import Initialiser
-from grammarbt_ge.mapping import CODONS, Genome, Mapper
+from grammarbt_ge.mapping import Mapper, Reading
 from grammarbt_ge.parameters import GeParameters
 
 
@@ -19,48 +20,43 @@ class GrammaticalEvolution(BatchSearcher):
 
 
 class Genomes:
-    """Lists of codons: bred by one-point crossover, or by exchange of whole lists, and by drawing codons anew."""
+    """Genomes as they are read: codons that no choice needs are not passed on."""
 
     def __init__(self, context: SearchContext, parameters: GeParameters, states: States) -> None:
         self.context = context
         self.parameters = parameters
         self.rng = context.rng
+        self.states = states
         self.mapper = Mapper(states, parameters.mapping, parameters.wraps)
+        self.breeder = Breeder(self.mapper, context.rng)
         self.initialiser = Initialiser(states, parameters.depth, context.rng)
 
-    def first(self, n: int) -> list[Genome]:
+    def first(self, n: int) -> list[Reading]:
         """The start tree, if there is one, and as the parameters say."""
         start = self.context.start
         known = [] if start is None else [parse_tree(self.context.grammar, start)]
         made = self.initialiser.derivations(self.parameters.initialise, n - len(known))
-        return [self.mapper.genome(derivation, self.rng) for derivation in known + made]
+        return [self._reading(derivation) for derivation in known + made]
 
-    def stranger(self) -> Genome:
+    def stranger(self) -> Reading:
         """The genome of a random tree."""
-        return self.mapper.genome(self.context.grammar.sample(self.rng), self.rng)
+        walk = self.states.walk()
+        walk.grow(self.rng)
+        return self._reading(tuple(walk.derivation))
 
-    def derivation(self, genome: Genome) -> Derivation:
+    def _reading(self, derivation: Derivation) -> Reading:
+        return self.mapper.read(self.mapper.genome(derivation, self.rng))
+
+    def derivation(self, genome: Reading) -> Derivation:
         """What the genome maps to."""
-        return self.mapper.derivation(genome)
+        return genome.derivation
 
-    def child(self, one: Genome, other: Genome) -> Genome:
-        """Crossed over, then flipped."""
+    def child(self, one: Reading, other: Reading) -> Reading:
+        """Bred from both; or from one alone, a codon drawn anew, or all that belong to a sub-tree."""
         if self.rng.random() < self.parameters.crossover:
-            one = self._crossed(one, other)
-        return tuple(map(self._flipped, one))
-
-    def _crossed(self, one: Genome, other: Genome) -> Genome:
-        if len(one) == 1:
-            return ((*one[0][: self._cut(one[0])], *other[0][self._cut(other[0]) :]),)
-        return tuple(pick(lists, self.rng) for lists in zip(one, other, strict=True))
-
-    def _cut(self, codons: tuple[int, ...]) -> int:
-        return int(self.rng.random() * (len(codons) + 1))
-
-    def _flipped(self, codons: tuple[int, ...]) -> tuple[int, ...]:
-        drawn = self.rng.random(len(codons)).tolist()
-        flip = self.parameters.flip
-        return tuple(
-            int(self.rng.random() * CODONS) if chance < flip else codon
-            for codon, chance in zip(codons, drawn, strict=True)
-        )
+            if self.rng.random() < self.parameters.matching:
+                return self.breeder.matched(one, other)
+            return self.breeder.crossed(one, other)
+        if self.rng.random() < self.parameters.regrow:
+            return self.breeder.matched(one, self.stranger())
+        return self.breeder.flipped(one)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from functools import cached_property, partial
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -47,17 +47,26 @@ class Leg:
     above: dict[int, Leg] = field(factory=dict, repr=False)
 
 
-@frozen(slots=True, eq=False)
+@frozen(slots=False, eq=False)  # slots=False: cached_property keeps its value in the instance's dict
 class Reading:
-    """What was read of a genome.
+    """A genome as a mapper reads it.
 
     Attributes:
+        mapper: reads it.
+        genome: what is read.
         derivation: what the genome stands for.
-        codons: in the order read, each with the step of the derivation that it chose, and the list that it is from.
     """
 
+    mapper: Mapper
+    genome: Genome
     derivation: Derivation
-    codons: tuple[ReadCodon, ...]
+
+    @cached_property
+    def codons(self) -> tuple[ReadCodon, ...]:
+        """In the order read, each with the step of the derivation that it chose, and the list that it is from."""
+        codons: list[ReadCodon] = []
+        self.mapper.derivation(self.genome, codons)
+        return tuple(codons)
 
 
 class Mapper:
@@ -82,15 +91,14 @@ class Mapper:
         self._shared: dict[tuple[int, ...], tuple[int, ...]] = {}
         self._first = self._leg(_into(states.start), [])
 
-    def derivation(self, genome: Genome) -> Derivation:
-        """What the genome stands for."""
-        return self.read(genome).derivation
-
     def read(self, genome: Genome) -> Reading:
-        """What the genome stands for, and what was read to get there."""
+        """The genome, and what it stands for."""
+        return Reading(self, genome, self.derivation(genome))
+
+    def derivation(self, genome: Genome, noted: list[ReadCodon] | None = None) -> Derivation:
+        """What the genome stands for; notes what is read, if asked to."""
         read = [0] * self.lists
         derivation: list[int] = []
-        choices_read: list[ReadCodon] = []
         stack: list[int] = []
         leg = self._first
         while True:
@@ -103,14 +111,15 @@ class Mapper:
                 at, codons = read[gene], genome[gene]
                 read[gene] = at + 1
                 codon = codons[at] if at < len(codons) else self._again(codons, at, leg)
-                choices_read.append((len(derivation), gene, codon))
+                if noted is not None:
+                    noted.append((len(derivation), gene, codon))
                 choice = codon % len(choices)
                 leg = choices[choice] or leg.make(choice)
             elif stack:
                 symbol = stack.pop()
                 leg = leg.above.get(symbol) or leg.make(symbol)
             else:
-                return Reading(tuple(derivation), tuple(choices_read))
+                return tuple(derivation)
 
     def _again(self, codons: tuple[int, ...], at: int, leg: Leg) -> int:
         """The codon where every one was read before."""

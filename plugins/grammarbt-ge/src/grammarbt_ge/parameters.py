@@ -9,7 +9,7 @@ from grammarbt_ge.initialise import InitialiseName
 from grammarbt_ge.mapping import MappingName
 
 MOST = 150
-"""Individuals in a generation, unless the user asks for more: many small populations find more than a large one."""
+"""Individuals in a generation, unless the user asks for more: populations begin anew, so that there may be several."""
 
 
 @frozen(kw_only=True)

@@ -27,6 +27,15 @@ def test_without_the_greedy_start_it_begins_with_random_trees():
     assert max(sizes) > 4
 
 
+def test_a_new_population_does_not_begin_with_the_smallest_trees_again():
+    searcher = GeneticProgramming(PUZZLE.context(), GpParameters(greedy=0.1, population=50))
+    trees = searcher.strategy.species
+    smallest = trees.first(50)
+    assert trees.first(50)[:40] == smallest[:40]
+    PUZZLE.drive(searcher, 60)
+    assert trees.first(50)[:40] != smallest[:40]
+
+
 def test_it_finds_the_best_tree():
     searcher = GeneticProgramming(PUZZLE.context(), GpParameters())
     PUZZLE.drive(searcher, 1_000, width=4)

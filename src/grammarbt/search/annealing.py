@@ -104,7 +104,7 @@ class AnnealedSearch:
         self.rounds += 1
         if self.simulated - before >= self.round_episodes:  # in a small language, longer rounds would find nothing new
             self.round_episodes = round(GROWTH * self.round_episodes)
-        if all(best.derivation != elite.derivation for elite in self.elites):
+        if all(best.derivation != known.derivation for known in self.elites):
             self.elites = sorted([*self.elites, best], key=lambda place: -place.value)[:ELITES]
         return best
 

@@ -32,7 +32,7 @@ class Breeder:
         return self.mapper.read(tuple(pick(pair, self.rng) for pair in pairs))
 
     def _cut(self, codons: tuple[int, ...]) -> int:
-        return int(self.rng.random() * (len(codons) + 1))
+        return pick(range(len(codons) + 1), self.rng)
 
     def matched(self, one: Reading, other: Reading) -> Reading:
         """The codons of a sub-tree of the one replaced by those of the other's sub-tree of the same nonterminal.
@@ -41,7 +41,7 @@ class Breeder:
         """
         if not one.codons:
             return one
-        at = int(self.rng.random() * len(one.codons))
+        at = pick(range(len(one.codons)), self.rng)
         symbol = self._symbol(one, at)
         alike = [place for place in range(len(other.codons)) if self._symbol(other, place) == symbol]
         if not alike:
@@ -63,7 +63,7 @@ class Breeder:
         """One codon drawn anew."""
         if not one.codons:
             return one
-        at = int(self.rng.random() * len(one.codons))
+        at = pick(range(len(one.codons)), self.rng)
         step, gene, _ = one.codons[at]
         return self._read([*one.codons[:at], (step, gene, int(self.rng.random() * CODONS)), *one.codons[at + 1 :]])
 

@@ -11,6 +11,8 @@ from grammarbt_ge.mapping import MappingName
 MOST = 150
 """Individuals in a generation, unless the user asks for more: populations begin anew, so that there may be several."""
 
+_share = [validators.ge(0.0), validators.le(1.0)]
+
 
 @frozen(kw_only=True)
 class GeParameters(EvolutionParameters):
@@ -57,17 +59,17 @@ class GeParameters(EvolutionParameters):
     )
     crossover: float = field(
         default=0.4,
-        validator=[validators.ge(0.0), validators.le(1.0)],
+        validator=_share,
         metadata={"help": "probability that a child has two parents"},
     )
     matching: float = field(
         default=1.0,
-        validator=[validators.ge(0.0), validators.le(1.0)],
+        validator=_share,
         metadata={"help": "share of them that exchange sub-trees of the same nonterminal, instead of heads and tails"},
     )
     regrow: float = field(
         default=0.7,
-        validator=[validators.ge(0.0), validators.le(1.0)],
+        validator=_share,
         metadata={"help": "share of the other children that get a random sub-tree, instead of one codon drawn anew"},
     )
 

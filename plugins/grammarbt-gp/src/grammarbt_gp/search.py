@@ -47,10 +47,11 @@ class Trees:
         self.mutations = (self.moves.regenerate, self.moves.insert, self.moves.delete, self.moves.reorder)
 
     def first(self, n: int) -> list[Derivation]:
-        """The start tree, if there is one, and the smallest trees or random ones."""
+        """The start tree, if there is one, and random ones; the smallest trees too, but once."""
         start = self.context.start
         known = [] if start is None else [parse_tree(self.context.grammar, start)]
-        small = list(islice(smallest_first(self.moves.states), int(self.parameters.greedy * self.context.budget)))
+        greedy = 0.0 if self.scorer.scores else self.parameters.greedy
+        small = list(islice(smallest_first(self.moves.states), int(greedy * self.context.budget)))
         return [*known, *small, *(self.stranger() for _ in range(n - len(known) - len(small)))]
 
     def stranger(self) -> Derivation:
